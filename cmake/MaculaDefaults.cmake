@@ -1,0 +1,22 @@
+# Compiler settings that every target shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+# The identity contract: the host's arithmetic is the kernels' arithmetic, so nothing is contracted.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off)
+if(MACULA_SANITIZE)
+  add_compile_options(-fsanitize=${MACULA_SANITIZE} -fno-omit-frame-pointer
+                      -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${MACULA_SANITIZE})
+endif()
+find_program(MACULA_CCACHE ccache)
+if(MACULA_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${MACULA_CCACHE})
+endif()
+find_package(Threads REQUIRED)

@@ -1,0 +1,90 @@
+/* Watertight ray/triangle test: Woop, Benthin and Wald 2013, with Kahan's difference of products
+ * for the edge functions, whose sign is then right without doubles. Both sides are hit. */
+#ifndef MACULA_LIB_TRIANGLE_H
+#define MACULA_LIB_TRIANGLE_H
+
+#include "lib/ray.h"
+#include "shared/bvh.h"
+
+MACULA_SHARED_BEGIN
+
+typedef struct TraceHit {
+    float t, u, v;
+    uint triangle;
+} TraceHit;
+
+/* a * b - c * d with the sign of the exact value. */
+MACULA_INLINE float difference_of_products(float a, float b, float c, float d) {
+    const float cd = c * d;
+    const float error = fma(-c, d, cd);
+    const float difference = fma(a, b, -cd);
+    return difference + error;
+}
+
+/* Sheared coordinates this small are zero, so that a device that flushes denormals agrees. */
+MACULA_INLINE float snap_tiny(float x) { return fabs(x) < 0x1p-40f ? 0.0f : x; }
+
+MACULA_INLINE TraceHit no_hit(float t_max) {
+    TraceHit h;
+    h.t = t_max;
+    h.u = 0.0f;
+    h.v = 0.0f;
+    h.triangle = MACULA_NO_TRIANGLE;
+    return h;
+}
+
+/* The total order of hits: least t, then least triangle id. */
+MACULA_INLINE bool is_closer(float t, uint triangle, const TraceHit* best) {
+    return t < best->t || (t == best->t && triangle < best->triangle);
+}
+
+/* Intersects one triangle; true when the hit lies in the ray's interval and passes the triangle's
+ * own box. On true, t (clamped into that box), u and v are set. */
+MACULA_INLINE bool intersect_triangle(const TraceRay* r, const float v0x, const float v0y,
+                                      const float v0z, const float v1x, const float v1y,
+                                      const float v1z, const float v2x, const float v2y,
+                                      const float v2z, float* t, float* u, float* v) {
+    const float ax = v0x - r->ox, ay = v0y - r->oy, az = v0z - r->oz;
+    const float bx = v1x - r->ox, by = v1y - r->oy, bz = v1z - r->oz;
+    const float cx = v2x - r->ox, cy = v2y - r->oy, cz = v2z - r->oz;
+    const float akz = pick_axis(r->kz, ax, ay, az);
+    const float bkz = pick_axis(r->kz, bx, by, bz);
+    const float ckz = pick_axis(r->kz, cx, cy, cz);
+    const float apx = snap_tiny(fma(-r->sx, akz, pick_axis(r->kx, ax, ay, az)));
+    const float apy = snap_tiny(fma(-r->sy, akz, pick_axis(r->ky, ax, ay, az)));
+    const float bpx = snap_tiny(fma(-r->sx, bkz, pick_axis(r->kx, bx, by, bz)));
+    const float bpy = snap_tiny(fma(-r->sy, bkz, pick_axis(r->ky, bx, by, bz)));
+    const float cpx = snap_tiny(fma(-r->sx, ckz, pick_axis(r->kx, cx, cy, cz)));
+    const float cpy = snap_tiny(fma(-r->sy, ckz, pick_axis(r->ky, cx, cy, cz)));
+    const float wa = difference_of_products(cpx, bpy, cpy, bpx);
+    const float wb = difference_of_products(apx, cpy, apy, cpx);
+    const float wc = difference_of_products(bpx, apy, bpy, apx);
+    const bool any_negative = wa < 0.0f || wb < 0.0f || wc < 0.0f;
+    const bool any_positive = wa > 0.0f || wb > 0.0f || wc > 0.0f;
+    if (any_negative && any_positive)
+        return false;
+    const float determinant = (wa + wb) + wc;
+    if (determinant == 0.0f)
+        return false;
+    const float inverse = m_divide(1.0f, determinant);
+    const float scaled_t = fma(wa, r->sz * akz, fma(wb, r->sz * bkz, wc * (r->sz * ckz)));
+    const float hit_t = scaled_t * inverse;
+    if (!(hit_t >= r->t_min))
+        return false;
+    float near, far;
+    box_interval(r, m_min(m_min(v0x, v1x), v2x), m_min(m_min(v0y, v1y), v2y),
+                 m_min(m_min(v0z, v1z), v2z), m_max(m_max(v0x, v1x), v2x),
+                 m_max(m_max(v0y, v1y), v2y), m_max(m_max(v0z, v1z), v2z), &near, &far);
+    if (near > far)
+        return false;
+    const float clamped = m_min(m_max(hit_t, near), far);
+    if (!(clamped <= r->t_max))
+        return false;
+    *t = clamped;
+    *u = wb * inverse;
+    *v = wc * inverse;
+    return true;
+}
+
+MACULA_SHARED_END
+#endif

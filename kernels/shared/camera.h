@@ -1,0 +1,47 @@
+/* One view of the scene: a pinhole camera with four independent FOV tangents, so that asymmetric
+ * head-mounted displays need nothing else. World space is right-handed; x right, y up in the
+ * image; rows run downwards from the top. */
+#ifndef MACULA_SHARED_CAMERA_H
+#define MACULA_SHARED_CAMERA_H
+
+#include "shared/language.h"
+
+MACULA_SHARED_BEGIN
+
+/* right, up, forward: orthonormal world-space axes. Tangents are positive magnitudes from the
+ * forward axis to the image's edges. The direction through the image point (x, y) in pixels is
+ * right * sx + up * sy + forward with
+ *   sx = fma(x, (tan_right + tan_left) / width, -tan_left),
+ *   sy = fma(y, -(tan_up + tan_down) / height, tan_up). */
+typedef struct Camera {
+    float origin[3];
+    float tan_left;
+    float right[3];
+    float tan_right;
+    float up[3];
+    float tan_up;
+    float forward[3];
+    float tan_down;
+} Camera;
+MACULA_ASSERT_SIZE(Camera, 64);
+
+/* Constant over one frame of one view. */
+typedef struct FrameParams {
+    Camera camera;
+    Camera previous_camera; /* last frame's; equal to camera in the first frame */
+    float gaze[3];          /* unit direction of gaze in world space */
+    float pixel_spread;     /* angle of one pixel at the image's centre, radians (ray cones) */
+    uint width, height;     /* pixels of the view */
+    uint frame;             /* frame index: a dimension of every random number */
+    uint seed;
+    uint samples_per_pixel; /* regular N x N grid when a square number, else hashed offsets */
+    uint sample;            /* index of the pixel sample being rendered, < samples_per_pixel */
+    uint light_count;
+    uint ambient_occlusion_samples; /* 0: none */
+    float ambient_occlusion_radius; /* world units */
+    float ambient[3];               /* ambient radiance, linear RGB */
+} FrameParams;
+MACULA_ASSERT_SIZE(FrameParams, 192);
+
+MACULA_SHARED_END
+#endif

@@ -1,0 +1,51 @@
+/* The dialect in which shared structs and scalar device functions are written once and compiled
+ * twice: as OpenCL C 1.2 on the device and as C++20 on the host (namespace macula::shared).
+ *
+ * The arithmetic contract (docs/arithmetic.md): only + - *, explicit fma, integer operations,
+ * compare and select, rint, floor, fabs, copysign. A product never feeds a sum without fma. */
+#ifndef MACULA_SHARED_LANGUAGE_H
+#define MACULA_SHARED_LANGUAGE_H
+
+#ifdef __OPENCL_VERSION__
+
+#pragma OPENCL FP_CONTRACT OFF
+#define MACULA_SHARED_BEGIN
+#define MACULA_SHARED_END
+#define MACULA_GLOBAL global
+#define MACULA_CONSTANT constant
+#define MACULA_INLINE static inline
+#define MACULA_ASSERT_SIZE(type, bytes)                                                            \
+    typedef char macula_size_of_##type[(sizeof(type) == (bytes)) ? 1 : -1]
+
+#else /* C++ */
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#define MACULA_SHARED_BEGIN namespace macula::shared {
+#define MACULA_SHARED_END } /* namespace macula::shared */
+#define MACULA_GLOBAL
+#define MACULA_CONSTANT const
+#define MACULA_INLINE inline
+#define MACULA_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
+
+namespace macula::shared {
+using uint = std::uint32_t;
+using ushort = std::uint16_t;
+using uchar = std::uint8_t;
+inline uint as_uint(float x) { return std::bit_cast<uint>(x); }
+inline int as_int(float x) { return std::bit_cast<int>(x); }
+inline int as_int(uint x) { return std::bit_cast<int>(x); }
+inline float as_float(uint x) { return std::bit_cast<float>(x); }
+inline float as_float(int x) { return std::bit_cast<float>(x); }
+inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
+inline float rint(float x) { return std::nearbyintf(x); }
+inline float floor(float x) { return std::floor(x); }
+inline float fabs(float x) { return std::fabs(x); }
+inline float copysign(float x, float y) { return std::copysign(x, y); }
+} // namespace macula::shared
+
+#endif
+#endif
