@@ -24,7 +24,8 @@ MACULA_SHARED_BEGIN
 #define MACULA_PI 0x1.921fb6p+1f
 
 /* Correctly rounded reciprocal for normal b with a normal result: a linear seed, three Newton
- * steps of rising order, and the one mantissa (all ones) where Markstein's theorem does not hold. */
+ * steps of rising order, and the one mantissa (all ones) where Markstein's theorem does not hold.
+ */
 MACULA_INLINE float m_reciprocal_in_software(float b) {
     const int sign = as_int(b) & (int)0x80000000u;
     const float a = as_float(as_int(b) ^ sign);
@@ -67,11 +68,19 @@ MACULA_INLINE float m_sqrt_in_software(float x) {
 }
 
 #if MACULA_CORRECTLY_ROUNDED
-MACULA_INLINE float m_divide(float n, float d) { return n / d; }
-MACULA_INLINE float m_sqrt(float x) { return MACULA_NATIVE_SQRT(x); }
+MACULA_INLINE float m_divide(float n, float d) {
+    return n / d;
+}
+MACULA_INLINE float m_sqrt(float x) {
+    return MACULA_NATIVE_SQRT(x);
+}
 #else
-MACULA_INLINE float m_divide(float n, float d) { return m_divide_in_software(n, d); }
-MACULA_INLINE float m_sqrt(float x) { return m_sqrt_in_software(x); }
+MACULA_INLINE float m_divide(float n, float d) {
+    return m_divide_in_software(n, d);
+}
+MACULA_INLINE float m_sqrt(float x) {
+    return m_sqrt_in_software(x);
+}
 #endif
 
 /* 2^(high + low) for a result in the normal range (clamped to it); |low| is below an ULP of high.
@@ -94,7 +103,9 @@ MACULA_INLINE float m_exp2_of_sum(float high, float low) {
     return p * as_float((k - half_k + 127) << 23);
 }
 
-MACULA_INLINE float m_exp2(float x) { return m_exp2_of_sum(x, 0.0f); }
+MACULA_INLINE float m_exp2(float x) {
+    return m_exp2_of_sum(x, 0.0f);
+}
 
 /* e^x, 2 ULP for |x| < 80. */
 MACULA_INLINE float m_exp(float x) {
@@ -121,8 +132,8 @@ MACULA_INLINE float m_log2(float x) {
     return fma(p, f, e);
 }
 
-/* x^y for x >= 0, 2 ULP where the result is normal; 0^0 = 1. The logarithm is carried in two
- * floats, or large exponents would amplify its rounding. */
+/* x^y for x >= 0 where the result is normal; 0^0 = 1. 2 ULP for y up to 8, 10 ULP up to 1000: the
+ * logarithm is carried in two floats, of which a large exponent amplifies the lower one's error. */
 MACULA_INLINE float m_pow(float x, float y) {
     const int i = as_int(x) - 0x3f2aaaab;
     const float e = (float)(i >> 23);
