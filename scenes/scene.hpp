@@ -40,16 +40,18 @@ struct Material {
     glm::vec3 specular{0.0f};
     float shininess = 32.0f; // Phong exponent, > 0
     glm::vec3 emission{0.0f};
-    float opacity = 1.0f;        // 0..1, used by AlphaMode::blend
+    float opacity = 1.0f; // 0..1, used by AlphaMode::blend
     float index_of_refraction = 1.5f;
-    glm::vec3 reflectivity{0.0f};  // weight of a mirror ray
-    glm::vec3 transmission{0.0f};  // weight of a refracted ray
+    glm::vec3 reflectivity{0.0f}; // weight of a mirror ray
+    glm::vec3 transmission{0.0f}; // weight of a refracted ray
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f; // AlphaMode::mask: a texel is solid when alpha >= cutoff
-    std::uint32_t diffuse_texture = kNoTexture;  // RGB; A is the mask unless alpha_texture is set
-    std::uint32_t alpha_texture = kNoTexture;    // R channel
+    std::uint32_t diffuse_texture = kNoTexture; // RGB; A is the mask unless alpha_texture is set
+    std::uint32_t alpha_texture = kNoTexture;   // R channel
     std::uint32_t specular_texture = kNoTexture;
-    std::uint32_t normal_texture = kNoTexture;   // tangent space, +y up (bump maps are converted)
+    // Tangent space: x along increasing u, y along increasing v, encoded as 0.5 * n + 0.5. Bump
+    // maps are converted, and glTF's maps, whose y is -v, are turned around.
+    std::uint32_t normal_texture = kNoTexture;
     std::uint32_t emission_texture = kNoTexture;
 };
 
@@ -60,7 +62,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; // unit length
     std::vector<glm::vec2> uvs;
-    std::vector<glm::uvec3> triangles;           // vertex indices, each < positions.size()
+    std::vector<glm::uvec3> triangles;            // vertex indices, each < positions.size()
     std::vector<std::uint32_t> triangle_material; // one for each triangle
 };
 
@@ -68,6 +70,7 @@ struct Mesh {
 struct Transform {
     glm::vec4 row[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
     bool is_identity() const;
+    glm::vec3 apply(const glm::vec3& object) const; // a point
     bool operator==(const Transform&) const = default;
 };
 
@@ -85,14 +88,14 @@ enum class LightKind : std::uint8_t { point, directional, spherical, rectangle }
 // `--lights area` renders a point light as a sphere of its radius where that is > 0.
 struct Light {
     LightKind kind = LightKind::point;
-    glm::vec3 position{0.0f};              // centre
+    glm::vec3 position{0.0f};               // centre
     glm::vec3 direction{0.0f, -1.0f, 0.0f}; // directional: the way light travels, unit length
-    glm::vec3 colour{1.0f};                // point/spherical: intensity (W/sr); directional:
-                                           // irradiance; rectangle: intensity along its normal
-    float radius = 0.0f;                   // spherical, and point when rendered as an area
-    glm::vec3 edge_u{0.0f}, edge_v{0.0f};  // rectangle: full edges; emits along cross(u, v)
-    float attenuation_distance = 0.0f;     // 0: none (constant, as the paper's Phong); else the
-                                           // distance at which inverse-square gives `colour`
+    glm::vec3 colour{1.0f};                 // point/spherical: intensity (W/sr); directional:
+                                            // irradiance; rectangle: intensity along its normal
+    float radius = 0.0f;                    // spherical, and point when rendered as an area
+    glm::vec3 edge_u{0.0f}, edge_v{0.0f};   // rectangle: full edges; emits along cross(u, v)
+    float attenuation_distance = 0.0f;      // 0: none (constant, as the paper's Phong); else the
+                                            // distance at which inverse-square gives `colour`
 };
 
 // A camera looks from `eye` to `target`. FOV as tangents, as in shared/camera.h.
@@ -130,14 +133,14 @@ struct Scene {
     std::vector<Light> lights;   // never empty after validate(): a headlight-like default is added
     std::vector<Camera> cameras; // never empty after validate(): one that sees the bounds is added
     CameraPath path;
-    glm::vec3 ambient{0.1f};    // ambient radiance
-    glm::vec3 background{0.0f}; // radiance of rays that miss
+    glm::vec3 ambient{0.1f};               // ambient radiance
+    glm::vec3 background{0.0f};            // radiance of rays that miss
     float ambient_occlusion_radius = 0.0f; // 0: 15 % of the bounds' diagonal
     std::optional<std::string> display;    // preferred display's name
     std::vector<std::string> warnings;     // counted, human-readable, for `macula scene`
 
     std::uint64_t triangle_count() const; // over instances
-    Bounds bounds() const;                // world space, over instances
+    Bounds bounds() const;                // world space, over the triangles of all instances
 };
 
 } // namespace macula::scene
