@@ -19,15 +19,15 @@ MACULA_SHARED_BEGIN
 #define MACULA_FAR_SCALE 0x1.000008p+0f /* 1 + 2^-21 */
 
 typedef struct TraceRay {
-    float ox, oy, oz;    /* origin */
-    float t_min, t_max;  /* interval of valid hits */
-    float rx, ry, rz;    /* reciprocal direction, for near planes */
-    float nx, ny, nz;    /* offsets for near planes */
-    float qx, qy, qz;    /* reciprocal direction for far planes: r * MACULA_FAR_SCALE */
-    float fx, fy, fz;    /* offsets for far planes */
-    float sx, sy, sz;    /* Woop et al. 2013: shear along the dominant axis, kz */
-    uint kx, ky, kz;     /* permutation of axes; kz is the dominant one, winding is not kept */
-    uint octant;         /* bit a: direction component a is negative */
+    float ox, oy, oz;   /* origin */
+    float t_min, t_max; /* interval of valid hits */
+    float rx, ry, rz;   /* reciprocal direction, for near planes */
+    float nx, ny, nz;   /* offsets for near planes */
+    float qx, qy, qz;   /* reciprocal direction for far planes: r * MACULA_FAR_SCALE */
+    float fx, fy, fz;   /* offsets for far planes */
+    float sx, sy, sz;   /* Woop et al. 2013: shear along the dominant axis, kz */
+    uint kx, ky, kz;    /* permutation of axes; kz is the dominant one, winding is not kept */
+    uint octant;        /* bit a: direction component a is negative */
 } TraceRay;
 
 MACULA_INLINE float pick_axis(uint axis, float x, float y, float z) {
@@ -35,8 +35,9 @@ MACULA_INLINE float pick_axis(uint axis, float x, float y, float z) {
 }
 
 MACULA_INLINE float bounded_direction(float d) {
-    return fabs(d) < MACULA_MIN_DIRECTION ? (d < 0.0f ? -MACULA_MIN_DIRECTION : MACULA_MIN_DIRECTION)
-                                          : d;
+    return fabs(d) < MACULA_MIN_DIRECTION
+               ? (d < 0.0f ? -MACULA_MIN_DIRECTION : MACULA_MIN_DIRECTION)
+               : d;
 }
 
 MACULA_INLINE bool ray_is_active(float t_min, float t_max) {
@@ -78,14 +79,19 @@ MACULA_INLINE TraceRay make_trace_ray(float ox, float oy, float oz, float dx, fl
     return r;
 }
 
-MACULA_INLINE float m_min(float a, float b) { return a < b ? a : b; }
-MACULA_INLINE float m_max(float a, float b) { return a > b ? a : b; }
+MACULA_INLINE float m_min(float a, float b) {
+    return a < b ? a : b;
+}
+MACULA_INLINE float m_max(float a, float b) {
+    return a > b ? a : b;
+}
 
 /* Entry and exit of the ray into a box. The box is entered when *near <= *far; `near` is at least
  * t_min. Callers cull only where near > far or near > best t: never on equality. */
 MACULA_INLINE void box_interval(const TraceRay* r, float lo_x, float lo_y, float lo_z, float hi_x,
                                 float hi_y, float hi_z, float* near, float* far) {
-    const bool sx = (r->octant & 1u) != 0u, sy = (r->octant & 2u) != 0u, sz = (r->octant & 4u) != 0u;
+    const bool sx = (r->octant & 1u) != 0u, sy = (r->octant & 2u) != 0u,
+               sz = (r->octant & 4u) != 0u;
     const float nx = fma(sx ? hi_x : lo_x, r->rx, r->nx), fx = fma(sx ? lo_x : hi_x, r->qx, r->fx);
     const float ny = fma(sy ? hi_y : lo_y, r->ry, r->ny), fy = fma(sy ? lo_y : hi_y, r->qy, r->fy);
     const float nz = fma(sz ? hi_z : lo_z, r->rz, r->nz), fz = fma(sz ? lo_z : hi_z, r->qz, r->fz);

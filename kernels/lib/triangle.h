@@ -22,7 +22,9 @@ MACULA_INLINE float difference_of_products(float a, float b, float c, float d) {
 }
 
 /* Sheared coordinates this small are zero, so that a device that flushes denormals agrees. */
-MACULA_INLINE float snap_tiny(float x) { return fabs(x) < 0x1p-40f ? 0.0f : x; }
+MACULA_INLINE float snap_tiny(float x) {
+    return fabs(x) < 0x1p-40f ? 0.0f : x;
+}
 
 MACULA_INLINE TraceHit no_hit(float t_max) {
     TraceHit h;

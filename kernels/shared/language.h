@@ -35,16 +35,36 @@ namespace macula::shared {
 using uint = std::uint32_t;
 using ushort = std::uint16_t;
 using uchar = std::uint8_t;
-inline uint as_uint(float x) { return std::bit_cast<uint>(x); }
-inline int as_int(float x) { return std::bit_cast<int>(x); }
-inline int as_int(uint x) { return std::bit_cast<int>(x); }
-inline float as_float(uint x) { return std::bit_cast<float>(x); }
-inline float as_float(int x) { return std::bit_cast<float>(x); }
-inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
-inline float rint(float x) { return std::nearbyintf(x); }
-inline float floor(float x) { return std::floor(x); }
-inline float fabs(float x) { return std::fabs(x); }
-inline float copysign(float x, float y) { return std::copysign(x, y); }
+inline uint as_uint(float x) {
+    return std::bit_cast<uint>(x);
+}
+inline int as_int(float x) {
+    return std::bit_cast<int>(x);
+}
+inline int as_int(uint x) {
+    return std::bit_cast<int>(x);
+}
+inline float as_float(uint x) {
+    return std::bit_cast<float>(x);
+}
+inline float as_float(int x) {
+    return std::bit_cast<float>(x);
+}
+inline float fma(float a, float b, float c) {
+    return std::fma(a, b, c);
+}
+inline float rint(float x) {
+    return std::nearbyintf(x);
+}
+inline float floor(float x) {
+    return std::floor(x);
+}
+inline float fabs(float x) {
+    return std::fabs(x);
+}
+inline float copysign(float x, float y) {
+    return std::copysign(x, y);
+}
 } // namespace macula::shared
 
 #endif

@@ -18,7 +18,8 @@
 #define TRACE_ARGUMENTS                                                                            \
     global const uchar *restrict nodes, global const uchar *restrict triangles,                    \
         global const Instance *restrict instances, global const BinaryNode *restrict upper_nodes,  \
-        global const uint *restrict mask_slots, global const MaskTriangle *restrict mask_triangles, \
+        global const uint *restrict mask_slots,                                                    \
+        global const MaskTriangle *restrict mask_triangles,                                        \
         global const MaskTexture *restrict mask_textures, global const uint *restrict mask_words,  \
         global const RayBlock *restrict rays, global const uint *restrict ray_count,               \
         global uint *restrict results, global uint *restrict work_counter
