@@ -15,8 +15,8 @@ typedef struct InstanceSpan {
 } InstanceSpan;
 
 /* False when the ray misses the instance's world box: then nothing in it counts as hit. */
-MACULA_INLINE bool enter_instance(const TraceRay *world, MACULA_GLOBAL const Instance *instance,
-                                  InstanceSpan *span) {
+MACULA_INLINE bool enter_instance(const TraceRay* world, MACULA_GLOBAL const Instance* instance,
+                                  InstanceSpan* span) {
     float far;
     box_interval(world, instance->lo[0], instance->lo[1], instance->lo[2], instance->hi[0],
                  instance->hi[1], instance->hi[2], &span->near, &far);
@@ -28,19 +28,19 @@ MACULA_INLINE bool enter_instance(const TraceRay *world, MACULA_GLOBAL const Ins
  * level can cull it; false when that is beyond the ray's end. t is never lowered: otherwise a hit
  * that lower-level boxes cull by a closer t could still win. Does nothing for identity instances,
  * whose world box contains the boxes of their triangles. */
-MACULA_INLINE bool clamp_to_span(const InstanceSpan *span, float *t) {
+MACULA_INLINE bool clamp_to_span(const InstanceSpan* span, float* t) {
     *t = m_max(*t, span->near);
     return *t <= span->t_max;
 }
 
 /* The ray in the instance's object space. Origin and direction are the world ray's own, before
  * make_trace_ray bounds the direction. The identity gives the very ray of make_trace_ray. */
-MACULA_INLINE TraceRay transform_ray(MACULA_GLOBAL const Instance *instance, float ox, float oy,
+MACULA_INLINE TraceRay transform_ray(MACULA_GLOBAL const Instance* instance, float ox, float oy,
                                      float oz, float dx, float dy, float dz, float t_min,
                                      float t_max) {
-    MACULA_GLOBAL const float *x = instance->object_from_world[0];
-    MACULA_GLOBAL const float *y = instance->object_from_world[1];
-    MACULA_GLOBAL const float *z = instance->object_from_world[2];
+    MACULA_GLOBAL const float* x = instance->object_from_world[0];
+    MACULA_GLOBAL const float* y = instance->object_from_world[1];
+    MACULA_GLOBAL const float* z = instance->object_from_world[2];
     return make_trace_ray(fma(x[0], ox, fma(x[1], oy, fma(x[2], oz, x[3]))),
                           fma(y[0], ox, fma(y[1], oy, fma(y[2], oz, y[3]))),
                           fma(z[0], ox, fma(z[1], oy, fma(z[2], oz, z[3]))),

@@ -10,10 +10,10 @@ MACULA_SHARED_BEGIN
 
 /* The four buffers of a masks' lookup; slots[mesh_triangle + id] indexes `triangles`. */
 typedef struct MaskTables {
-    MACULA_GLOBAL const uint *slots;
-    MACULA_GLOBAL const MaskTriangle *triangles;
-    MACULA_GLOBAL const MaskTexture *textures;
-    MACULA_GLOBAL const uint *words;
+    MACULA_GLOBAL const uint* slots;
+    MACULA_GLOBAL const MaskTriangle* triangles;
+    MACULA_GLOBAL const MaskTexture* textures;
+    MACULA_GLOBAL const uint* words;
 } MaskTables;
 
 /* Texture coordinates further out than this, and NaN, are taken for 0: beyond, a float holds no
@@ -36,9 +36,9 @@ MACULA_INLINE uint mask_texel(float x, uint size, uint wrap) {
 
 /* True when the texel at the barycentric weights (u, v) of a masked triangle is solid. `slot` is
  * Instance.mesh_triangle + the triangle's id within its mesh. */
-MACULA_INLINE bool mask_is_solid(const MaskTables *tables, uint slot, float u, float v) {
-    MACULA_GLOBAL const MaskTriangle *triangle = tables->triangles + tables->slots[slot];
-    MACULA_GLOBAL const MaskTexture *texture = tables->textures + triangle->texture;
+MACULA_INLINE bool mask_is_solid(const MaskTables* tables, uint slot, float u, float v) {
+    MACULA_GLOBAL const MaskTriangle* triangle = tables->triangles + tables->slots[slot];
+    MACULA_GLOBAL const MaskTexture* texture = tables->textures + triangle->texture;
     const float w = (1.0f - u) - v;
     const float x = fma(w, triangle->uv[0][0], fma(u, triangle->uv[1][0], v * triangle->uv[2][0]));
     const float y = fma(w, triangle->uv[0][1], fma(u, triangle->uv[1][1], v * triangle->uv[2][1]));

@@ -11,11 +11,14 @@ MACULA_SHARED_BEGIN
 /* Direction components are kept at least this large, so that reciprocals stay finite and nothing
  * is denormal. */
 #define MACULA_MIN_DIRECTION 0x1p-24f
-/* t of a plane p is fma(p, reciprocal, offset), whose error comes from rounding origin *
- * reciprocal (relative to that product) and from the fma (relative to t). Offsets are padded by
- * the first, the far plane is scaled by more than the second: boxes then contain what they bound,
- * and since rounding is monotonic no parent box can cull a child that passes. */
-#define MACULA_OFFSET_PAD 0x1p-22f
+/* t of a plane p is fma(p, reciprocal, offset). Rounding is monotonic, so no parent box can cull a
+ * child that passes. Offsets are padded by MACULA_RAY_MARGIN * the origin's largest component, as a
+ * distance along the axis; triangle boxes carry a margin of their own vertices' size (triangle.h);
+ * far planes are scaled by more than the fma's rounding. Together that is over twice the error of a
+ * computed hit, whose t and sheared edges are off by up to 32 * 2^-24 of the largest difference
+ * between a vertex and the origin: so a box, also one that holds only a part of a triangle, is
+ * entered by every ray that hits what is in it (docs/arithmetic.md). */
+#define MACULA_RAY_MARGIN 0x1p-18f
 #define MACULA_FAR_SCALE 0x1.000008p+0f /* 1 + 2^-21 */
 
 typedef struct TraceRay {
@@ -29,6 +32,13 @@ typedef struct TraceRay {
     uint kx, ky, kz;    /* permutation of axes; kz is the dominant one, winding is not kept */
     uint octant;        /* bit a: direction component a is negative */
 } TraceRay;
+
+MACULA_INLINE float m_min(float a, float b) {
+    return a < b ? a : b;
+}
+MACULA_INLINE float m_max(float a, float b) {
+    return a > b ? a : b;
+}
 
 MACULA_INLINE float pick_axis(uint axis, float x, float y, float z) {
     return axis == 0u ? x : (axis == 1u ? y : z);
@@ -59,15 +69,17 @@ MACULA_INLINE TraceRay make_trace_ray(float ox, float oy, float oz, float dx, fl
     r.ry = m_divide(1.0f, dy);
     r.rz = m_divide(1.0f, dz);
     const float px = ox * r.rx, py = oy * r.ry, pz = oz * r.rz;
-    r.nx = fma(fabs(px), -MACULA_OFFSET_PAD, -px);
-    r.ny = fma(fabs(py), -MACULA_OFFSET_PAD, -py);
-    r.nz = fma(fabs(pz), -MACULA_OFFSET_PAD, -pz);
+    const float reach = m_max(m_max(fabs(ox), fabs(oy)), m_max(fabs(oz), 0x1p-20f));
+    const float margin = MACULA_RAY_MARGIN * reach;
+    r.nx = fma(fabs(r.rx), -margin, -px);
+    r.ny = fma(fabs(r.ry), -margin, -py);
+    r.nz = fma(fabs(r.rz), -margin, -pz);
     r.qx = r.rx * MACULA_FAR_SCALE;
     r.qy = r.ry * MACULA_FAR_SCALE;
     r.qz = r.rz * MACULA_FAR_SCALE;
-    r.fx = fma(fabs(px), MACULA_OFFSET_PAD, -px) * MACULA_FAR_SCALE;
-    r.fy = fma(fabs(py), MACULA_OFFSET_PAD, -py) * MACULA_FAR_SCALE;
-    r.fz = fma(fabs(pz), MACULA_OFFSET_PAD, -pz) * MACULA_FAR_SCALE;
+    r.fx = fma(fabs(r.rx), margin, -px) * MACULA_FAR_SCALE;
+    r.fy = fma(fabs(r.ry), margin, -py) * MACULA_FAR_SCALE;
+    r.fz = fma(fabs(r.rz), margin, -pz) * MACULA_FAR_SCALE;
     const float ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
     r.kz = (ax >= ay && ax >= az) ? 0u : (ay >= az ? 1u : 2u);
     r.kx = r.kz == 2u ? 0u : r.kz + 1u;

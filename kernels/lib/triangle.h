@@ -26,6 +26,16 @@ MACULA_INLINE float snap_tiny(float x) {
     return fabs(x) < 0x1p-40f ? 0.0f : x;
 }
 
+/* A triangle's box, in its nodes and in its own test, is that of its vertices widened on all sides
+ * by this much: MACULA_TRIANGLE_MARGIN * the largest coordinate in size, at least 2^-38 (which also
+ * covers snap_tiny). See ray.h. */
+#define MACULA_TRIANGLE_MARGIN 0x1p-18f
+MACULA_INLINE float triangle_margin(float lo_x, float lo_y, float lo_z, float hi_x, float hi_y,
+                                    float hi_z) {
+    const float x = m_max(-lo_x, hi_x), y = m_max(-lo_y, hi_y), z = m_max(-lo_z, hi_z);
+    return MACULA_TRIANGLE_MARGIN * m_max(m_max(x, y), m_max(z, 0x1p-20f));
+}
+
 MACULA_INLINE TraceHit no_hit(float t_max) {
     TraceHit h;
     h.t = t_max;
@@ -73,10 +83,13 @@ MACULA_INLINE bool intersect_triangle(const TraceRay* r, const float v0x, const 
     const float hit_t = scaled_t * inverse;
     if (!(hit_t >= r->t_min))
         return false;
+    const float lo_x = m_min(m_min(v0x, v1x), v2x), hi_x = m_max(m_max(v0x, v1x), v2x);
+    const float lo_y = m_min(m_min(v0y, v1y), v2y), hi_y = m_max(m_max(v0y, v1y), v2y);
+    const float lo_z = m_min(m_min(v0z, v1z), v2z), hi_z = m_max(m_max(v0z, v1z), v2z);
+    const float margin = triangle_margin(lo_x, lo_y, lo_z, hi_x, hi_y, hi_z);
     float near, far;
-    box_interval(r, m_min(m_min(v0x, v1x), v2x), m_min(m_min(v0y, v1y), v2y),
-                 m_min(m_min(v0z, v1z), v2z), m_max(m_max(v0x, v1x), v2x),
-                 m_max(m_max(v0y, v1y), v2y), m_max(m_max(v0z, v1z), v2z), &near, &far);
+    box_interval(r, lo_x - margin, lo_y - margin, lo_z - margin, hi_x + margin, hi_y + margin,
+                 hi_z + margin, &near, &far);
     if (near > far)
         return false;
     const float clamped = m_min(m_max(hit_t, near), far);
