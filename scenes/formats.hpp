@@ -1,0 +1,24 @@
+// The file formats behind load(). Each returns what the file says, not yet validated.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scenes/load.hpp"
+
+namespace macula::scene {
+
+// `text` is the unpacked file; `path` names it in messages, and its folder holds what it refers to.
+Scene load_obj(const std::string& text, const std::filesystem::path& path,
+               const LoadOptions& options);
+Scene load_gltf(const std::string& bytes, const std::filesystem::path& path, bool binary,
+                const LoadOptions& options);
+
+// Any of them, by extension; scene files use it for what they name.
+Scene load_file(const std::filesystem::path& path, const LoadOptions& options);
+
+// Reads the scene file and what it names.
+Scene load_scene_file(const std::string& text, const std::filesystem::path& path,
+                      const LoadOptions& options);
+
+} // namespace macula::scene
