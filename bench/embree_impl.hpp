@@ -25,16 +25,15 @@ struct EmbreeGeometry {
     std::uint32_t mesh = 0;
     std::uint32_t instance = 0;           // scene instance; of geometries outside instances, too
     std::vector<std::uint32_t> triangles; // Embree's primitive id -> index into Mesh::triangles
-    MaskedTriangles masked;
+    std::unique_ptr<MaskFilter> filter;   // of masked triangles
 };
-// By geometry id. Filters keep pointers to the elements.
-using EmbreeGeometries = std::vector<std::unique_ptr<EmbreeGeometry>>;
+using EmbreeGeometries = std::vector<EmbreeGeometry>; // by geometry id
 
 struct EmbreeScene::Impl {
     const scene::Scene* source = nullptr;
     std::uint32_t threads = 1;
     double build_seconds = 0.0;
-    std::vector<AlphaMask> masks;
+    std::unique_ptr<AlphaMasks> masks;
     std::vector<std::vector<float>> positions; // by mesh, padded as Embree asks
     DeviceHandle device;
     std::vector<SceneHandle> mesh_scenes; // by mesh; null where no instance uses it

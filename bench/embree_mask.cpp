@@ -1,84 +1,97 @@
 #include "bench/embree_mask.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include <embree3/rtcore.h>
 
 namespace macula::bench {
 namespace {
 
-// The texture and channel of a material's alpha; kNoTexture when there is none.
+// Where a material's alpha lies; texture = kNoTexture when it has no mask.
 struct AlphaChannel {
     std::uint32_t texture = scene::kNoTexture;
     std::uint32_t channel = 3;
 };
 
-AlphaChannel alpha_channel(const scene::Material& material) {
+AlphaChannel alpha_channel(const scene::Scene& scene, const scene::Material& material) {
+    if (material.alpha_mode != scene::AlphaMode::mask)
+        return {};
     if (material.alpha_texture != scene::kNoTexture)
         return {material.alpha_texture, 0};
-    return {material.diffuse_texture, 3};
+    const std::uint32_t texture = material.diffuse_texture;
+    const bool has_alpha = texture != scene::kNoTexture && scene.textures[texture].has_alpha;
+    return {has_alpha ? texture : scene::kNoTexture, 3};
+}
+
+shared::uint wrap_code(scene::Wrap wrap) {
+    switch (wrap) {
+    case scene::Wrap::clamp:
+        return MACULA_WRAP_CLAMP;
+    case scene::Wrap::mirror:
+        return MACULA_WRAP_MIRROR;
+    case scene::Wrap::repeat:
+        break;
+    }
+    return MACULA_WRAP_REPEAT;
+}
+
+void append_bits(std::vector<shared::uint>& words, const scene::MipLevel& level,
+                 std::uint32_t channel, float cutoff) {
+    for (std::uint32_t y = 0; y < level.height; ++y) {
+        const std::size_t row = words.size();
+        words.resize(row + (level.width + 31) / 32);
+        for (std::uint32_t x = 0; x < level.width; ++x) {
+            const std::size_t texel = std::size_t{y} * level.width + x;
+            if (static_cast<float>(level.rgba[4 * texel + channel]) / 255.0f >= cutoff)
+                words[row + x / 32] |= 1U << (x % 32);
+        }
+    }
 }
 
 } // namespace
 
-float AlphaMask::texel(float coordinate, std::uint32_t size, scene::Wrap wrap) {
-    const auto n = static_cast<float>(size);
-    float fraction = std::clamp(coordinate, 0.0f, 1.0f);
-    if (wrap == scene::Wrap::repeat)
-        fraction = coordinate - std::floor(coordinate);
-    if (wrap == scene::Wrap::mirror) {
-        const float half = coordinate * 0.5f;
-        const float folded = 2.0f * (half - std::floor(half));
-        fraction = folded > 1.0f ? 2.0f - folded : folded;
+AlphaMasks::AlphaMasks(const scene::Scene& scene) : of_material(scene.materials.size(), kNone) {
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        const AlphaChannel alpha = alpha_channel(scene, scene.materials[m]);
+        if (alpha.texture == scene::kNoTexture)
+            continue;
+        const scene::Texture& texture = scene.textures[alpha.texture];
+        const scene::MipLevel& level = texture.levels.front();
+        of_material[m] = static_cast<std::uint32_t>(textures.size());
+        textures.push_back({static_cast<shared::uint>(words.size()), level.width, level.height,
+                            wrap_code(texture.wrap_u) | (wrap_code(texture.wrap_v) << 2)});
+        append_bits(words, level, alpha.channel, scene.materials[m].alpha_cutoff);
     }
-    return fraction * n;
 }
 
-bool AlphaMask::is_solid(float u, float v) const {
-    const auto x = std::min(static_cast<std::uint32_t>(texel(u, width, wrap_u)), width - 1);
-    const auto y = std::min(static_cast<std::uint32_t>(texel(v, height, wrap_v)), height - 1);
-    return solid[std::size_t{y} * width + x] != 0;
-}
-
-bool is_masked(const scene::Scene& scene, const scene::Material& material) {
-    if (material.alpha_mode != scene::AlphaMode::mask)
-        return false;
-    const AlphaChannel alpha = alpha_channel(material);
-    if (alpha.texture == scene::kNoTexture)
-        return false;
-    return alpha.channel == 0 || scene.textures[alpha.texture].has_alpha;
-}
-
-AlphaMask make_mask(const scene::Scene& scene, const scene::Material& material) {
-    const AlphaChannel alpha = alpha_channel(material);
-    const scene::Texture& texture = scene.textures[alpha.texture];
-    const scene::MipLevel& level = texture.levels.front();
-    AlphaMask mask;
-    mask.width = level.width;
-    mask.height = level.height;
-    mask.wrap_u = texture.wrap_u;
-    mask.wrap_v = texture.wrap_v;
-    mask.solid.resize(std::size_t{level.width} * level.height);
-    for (std::size_t i = 0; i < mask.solid.size(); ++i) {
-        const float value = static_cast<float>(level.rgba[4 * i + alpha.channel]) / 255.0f;
-        mask.solid[i] = value >= material.alpha_cutoff ? 1 : 0;
+shared::MaskTriangle masked_triangle(const AlphaMasks& masks, const scene::Mesh& mesh,
+                                     std::uint32_t triangle) {
+    shared::MaskTriangle result{};
+    result.texture = masks.of_material[mesh.triangle_material[triangle]];
+    for (int corner = 0; corner < 3 && !mesh.uvs.empty(); ++corner) {
+        const glm::vec2 uv = mesh.uvs[mesh.triangles[triangle][corner]];
+        result.uv[corner][0] = uv.x;
+        result.uv[corner][1] = uv.y;
     }
-    return mask;
+    return result;
+}
+
+MaskFilter::MaskFilter(const AlphaMasks& masks, const scene::Mesh& mesh,
+                       std::span<const std::uint32_t> triangles)
+    : slots_(triangles.size()) {
+    std::iota(slots_.begin(), slots_.end(), 0U);
+    for (const std::uint32_t triangle : triangles)
+        triangles_.push_back(masked_triangle(masks, mesh, triangle));
+    tables_ = {slots_.data(), triangles_.data(), masks.textures.data(), masks.words.data()};
 }
 
 void filter_by_mask(const RTCFilterFunctionNArguments* arguments) {
-    const auto& triangles = *static_cast<const MaskedTriangles*>(arguments->geometryUserPtr);
+    const auto& filter = *static_cast<const MaskFilter*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
     for (unsigned i = 0; i < n; ++i) {
-        if (arguments->valid[i] == 0)
-            continue;
-        const auto& entry = triangles.entries[RTCHitN_primID(arguments->hit, n, i)];
-        const float b = RTCHitN_u(arguments->hit, n, i), c = RTCHitN_v(arguments->hit, n, i);
-        const float a = 1.0f - b - c;
-        const float u = a * entry.uv[0][0] + b * entry.uv[1][0] + c * entry.uv[2][0];
-        const float v = a * entry.uv[0][1] + b * entry.uv[1][1] + c * entry.uv[2][1];
-        if (!(*triangles.masks)[entry.mask].is_solid(u, v))
+        if (arguments->valid[i] != 0 &&
+            !filter.is_solid(RTCHitN_primID(arguments->hit, n, i), RTCHitN_u(arguments->hit, n, i),
+                             RTCHitN_v(arguments->hit, n, i)))
             arguments->valid[i] = 0;
     }
 }

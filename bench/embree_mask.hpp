@@ -1,42 +1,51 @@
-// Alpha masks inside Embree's traversal: nearest texel of the finest level, as kernels/lib/mask.h.
+// Alpha masks inside Embree's traversal: the test of kernels/lib/mask.h on tables made here.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "lib/mask.h"
 #include "scenes/scene.hpp"
 
 struct RTCFilterFunctionNArguments;
 
 namespace macula::bench {
 
-// A material's mask, thresholded: solid[y * width + x], row 0 at v = 0.
-struct AlphaMask {
-    std::uint32_t width = 0, height = 0;
-    scene::Wrap wrap_u = scene::Wrap::repeat, wrap_v = scene::Wrap::repeat;
-    std::vector<std::uint8_t> solid;
+// The thresholded masks of a scene's materials.
+struct AlphaMasks {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
 
-    // Coordinate in texels of u (or v) after wrapping: in [0, size].
-    static float texel(float coordinate, std::uint32_t size, scene::Wrap wrap);
-    bool is_solid(float u, float v) const;
+    explicit AlphaMasks(const scene::Scene& scene);
+
+    std::vector<shared::MaskTexture> textures;
+    std::vector<shared::uint> words;
+    std::vector<std::uint32_t> of_material; // index into `textures`, or kNone
 };
 
-// Whether hits on the material's triangles depend on a texel.
-bool is_masked(const scene::Scene& scene, const scene::Material& material);
-// The mask of a material for which is_masked() holds.
-AlphaMask make_mask(const scene::Scene& scene, const scene::Material& material);
+// Texture coordinates and mask of a triangle whose material has a mask.
+shared::MaskTriangle masked_triangle(const AlphaMasks& masks, const scene::Mesh& mesh,
+                                     std::uint32_t triangle);
 
-// The masked triangles of a mesh as one Embree geometry: what the filter needs of each.
-struct MaskedTriangles {
-    struct Entry {
-        float uv[3][2];
-        std::uint32_t mask; // index into `masks`
-    };
-    std::vector<Entry> entries; // by Embree's primitive id
-    const std::vector<AlphaMask>* masks = nullptr;
+// The masked triangles of a mesh, by Embree's primitive id: the user data of filter_by_mask.
+class MaskFilter {
+  public:
+    MaskFilter(const AlphaMasks& masks, const scene::Mesh& mesh,
+               std::span<const std::uint32_t> triangles);
+    MaskFilter(const MaskFilter&) = delete;
+    MaskFilter& operator=(const MaskFilter&) = delete;
+
+    bool is_solid(std::uint32_t primitive, float u, float v) const {
+        return shared::mask_is_solid(&tables_, primitive, u, v);
+    }
+
+  private:
+    std::vector<shared::uint> slots_;
+    std::vector<shared::MaskTriangle> triangles_;
+    shared::MaskTables tables_;
 };
 
-// An RTCFilterFunctionN; the geometry's user pointer is a MaskedTriangles.
+// An RTCFilterFunctionN; the geometry's user pointer is a MaskFilter.
 void filter_by_mask(const RTCFilterFunctionNArguments* arguments);
 
 } // namespace macula::bench

@@ -32,7 +32,7 @@ class Builder {
         impl_.device.reset(rtcNewDevice(config.c_str()));
         if (!impl_.device)
             throw std::runtime_error("Embree: no device (" + config + ")");
-        make_masks();
+        impl_.masks = std::make_unique<AlphaMasks>(scene_);
         copy_positions();
         impl_.mesh_scenes.resize(scene_.meshes.size());
         impl_.mesh_geometries.resize(scene_.meshes.size());
@@ -67,16 +67,6 @@ class Builder {
         throw_on_error(impl_.device.get(), "building a scene");
     }
 
-    void make_masks() {
-        mask_of_material_.assign(scene_.materials.size(), scene::kNoTexture);
-        for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
-            if (!is_masked(scene_, scene_.materials[m]))
-                continue;
-            mask_of_material_[m] = static_cast<std::uint32_t>(impl_.masks.size());
-            impl_.masks.push_back(make_mask(scene_, scene_.materials[m]));
-        }
-    }
-
     // Embree reads 16 bytes at the last vertex.
     void copy_positions() {
         for (const scene::Mesh& mesh : scene_.meshes) {
@@ -85,28 +75,25 @@ class Builder {
         }
     }
 
-    std::uint32_t mask_of(const scene::Mesh& mesh, std::size_t triangle) const {
-        return mask_of_material_[mesh.triangle_material[triangle]];
+    bool has_mask(const scene::Mesh& mesh, std::size_t triangle) const {
+        return impl_.masks->of_material[mesh.triangle_material[triangle]] != AlphaMasks::kNone;
     }
 
     // The mesh as up to two geometries of `target`: the unmasked triangles and the masked ones.
     void attach_mesh(RTCScene target, EmbreeGeometries& geometries, std::uint32_t mesh_index,
                      std::uint32_t instance) {
         const scene::Mesh& mesh = scene_.meshes[mesh_index];
-        auto plain = std::make_unique<EmbreeGeometry>();
-        auto masked = std::make_unique<EmbreeGeometry>();
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            const bool has_mask = mask_of(mesh, t) != scene::kNoTexture;
-            (has_mask ? masked : plain)->triangles.push_back(t);
-        }
-        for (auto* part : {&plain, &masked}) {
-            if ((*part)->triangles.empty())
+        EmbreeGeometry plain, masked;
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+            (has_mask(mesh, t) ? masked : plain).triangles.push_back(t);
+        for (EmbreeGeometry* part : {&plain, &masked}) {
+            if (part->triangles.empty())
                 continue;
-            (*part)->mesh = mesh_index;
-            (*part)->instance = instance;
-            RTCGeometry geometry = new_triangles(**part);
+            part->mesh = mesh_index;
+            part->instance = instance;
+            RTCGeometry geometry = new_triangles(*part);
             if (part == &masked)
-                set_filter(geometry, **part);
+                set_filter(geometry, masked);
             attach(target, geometry);
             geometries.push_back(std::move(*part));
         }
@@ -127,19 +114,9 @@ class Builder {
     }
 
     void set_filter(RTCGeometry geometry, EmbreeGeometry& part) {
-        const scene::Mesh& mesh = scene_.meshes[part.mesh];
-        part.masked.masks = &impl_.masks;
-        for (const std::uint32_t t : part.triangles) {
-            MaskedTriangles::Entry entry{};
-            entry.mask = mask_of(mesh, t);
-            for (int corner = 0; corner < 3 && !mesh.uvs.empty(); ++corner) {
-                const glm::vec2 uv = mesh.uvs[mesh.triangles[t][corner]];
-                entry.uv[corner][0] = uv.x;
-                entry.uv[corner][1] = uv.y;
-            }
-            part.masked.entries.push_back(entry);
-        }
-        rtcSetGeometryUserData(geometry, &part.masked);
+        part.filter =
+            std::make_unique<MaskFilter>(*impl_.masks, scene_.meshes[part.mesh], part.triangles);
+        rtcSetGeometryUserData(geometry, part.filter.get());
         rtcSetGeometryIntersectFilterFunction(geometry, filter_by_mask);
         rtcSetGeometryOccludedFilterFunction(geometry, filter_by_mask);
     }
@@ -162,11 +139,10 @@ class Builder {
                 matrix[4 * r + c] = row[r][c];
         }
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
-        auto entry = std::make_unique<EmbreeGeometry>();
-        entry->mesh = instance.mesh;
-        entry->instance = index;
         attach(impl_.root.get(), geometry);
-        impl_.root_geometries.push_back(std::move(entry));
+        EmbreeGeometry& entry = impl_.root_geometries.emplace_back();
+        entry.mesh = instance.mesh;
+        entry.instance = index;
     }
 
     void attach(RTCScene target, RTCGeometry geometry) {
@@ -179,7 +155,6 @@ class Builder {
     EmbreeScene::Impl& impl_;
     const scene::Scene& scene_;
     const EmbreeOptions& options_;
-    std::vector<std::uint32_t> mask_of_material_;
 };
 
 } // namespace
@@ -207,11 +182,11 @@ std::uint32_t EmbreeScene::threads() const {
 Surface EmbreeScene::surface(std::uint32_t embree_instance, std::uint32_t geometry,
                              std::uint32_t primitive) const {
     if (embree_instance == RTC_INVALID_GEOMETRY_ID) {
-        const EmbreeGeometry& g = *impl_->root_geometries[geometry];
+        const EmbreeGeometry& g = impl_->root_geometries[geometry];
         return {g.instance, g.mesh, g.triangles[primitive]};
     }
-    const EmbreeGeometry& placed = *impl_->root_geometries[embree_instance];
-    const EmbreeGeometry& g = *impl_->mesh_geometries[placed.mesh][geometry];
+    const EmbreeGeometry& placed = impl_->root_geometries[embree_instance];
+    const EmbreeGeometry& g = impl_->mesh_geometries[placed.mesh][geometry];
     return {placed.instance, placed.mesh, g.triangles[primitive]};
 }
 
