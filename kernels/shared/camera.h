@@ -12,7 +12,8 @@ MACULA_SHARED_BEGIN
  * forward axis to the image's edges. The direction through the image point (x, y) in pixels is
  * right * sx + up * sy + forward with
  *   sx = fma(x, (tan_right + tan_left) / width, -tan_left),
- *   sy = fma(y, -(tan_up + tan_down) / height, tan_up). */
+ *   sy = fma(y, -(tan_up + tan_down) / height, tan_up),
+ * so that t along it is the depth along `forward`. */
 typedef struct Camera {
     float origin[3];
     float tan_left;
@@ -30,18 +31,23 @@ typedef struct FrameParams {
     Camera camera;
     Camera previous_camera; /* last frame's; equal to camera in the first frame */
     float gaze[3];          /* unit direction of gaze in world space */
-    float pixel_spread;     /* angle of one pixel at the image's centre, radians (ray cones) */
-    uint width, height;     /* pixels of the view */
-    uint frame;             /* frame index: a dimension of every random number */
+    float pixel_spread; /* width of a pixel's ray cone at depth 1 (Akenine-Moeller et al. 2019) */
+    uint width, height; /* pixels of the view */
+    uint frame;         /* frame index: a dimension of every random number */
     uint seed;
-    uint samples_per_pixel; /* regular N x N grid when a square number, else hashed offsets */
-    uint sample;            /* index of the pixel sample being rendered, < samples_per_pixel */
+    uint samples_per_pixel;
+    uint sample_grid; /* N when samples_per_pixel = N * N: a regular grid; 0: hashed offsets */
     uint light_count;
     uint ambient_occlusion_samples; /* 0: none */
+    uint ambient_occlusion_columns; /* of the grid of strata; divides the number of samples */
     float ambient_occlusion_radius; /* world units */
-    float ambient[3];               /* ambient radiance, linear RGB */
+    uint pad[2];
+    float ambient[3]; /* ambient radiance, linear RGB */
+    uint pad_ambient;
+    float background[3]; /* radiance of rays that miss, linear RGB */
+    uint pad_background;
 } FrameParams;
-MACULA_ASSERT_SIZE(FrameParams, 192);
+MACULA_ASSERT_SIZE(FrameParams, 224);
 
 MACULA_SHARED_END
 #endif

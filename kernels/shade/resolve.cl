@@ -1,0 +1,32 @@
+/* From ray slots to the pixels of an image. */
+#include "lib/camera.h"
+
+/* Adds sample `sample` of each slot to its pixel; after the last one the sum becomes the mean. The
+ * order of the samples is fixed, hence also the sum. One work-item a slot; a pixel has one slot. */
+kernel void average_samples(global const FrameParams* restrict frame, uint sample,
+                            global const uint* restrict ray_count,
+                            global const uint* restrict pixels,
+                            global const float4* restrict samples, global float4* restrict image) {
+    const uint slot = get_global_id(0);
+    if (slot >= *ray_count || pixels[slot] == MACULA_NO_PIXEL)
+        return;
+    const uint pixel = pixels[slot], count = frame->samples_per_pixel;
+    const float4 value = samples[slot];
+    float4 sum = sample == 0u ? value : image[pixel] + value;
+    if (sample + 1u == count && count > 1u)
+        sum = sum * m_divide(1.0f, (float)count);
+    image[pixel] = sum;
+}
+
+/* Copies the first sample's words to its pixel: for what has no meaningful mean (ids, positions,
+ * normals). `words`: 32-bit words an element. */
+kernel void store_first_sample(uint words, global const uint* restrict ray_count,
+                               global const uint* restrict pixels,
+                               global const uint* restrict samples, global uint* restrict image) {
+    const uint slot = get_global_id(0);
+    if (slot >= *ray_count || pixels[slot] == MACULA_NO_PIXEL)
+        return;
+    const uint pixel = pixels[slot];
+    for (uint word = 0u; word < words; ++word)
+        image[pixel * words + word] = samples[slot * words + word];
+}

@@ -1,0 +1,25 @@
+/* Phong shading of the G-buffer with the light buffer (lib/phong.h). Inputs that a method lacks
+ * are null: no direct light, no highlights, no ambient occlusion. */
+#include "lib/camera.h"
+#include "lib/phong.h"
+
+/* One work-item a slot. */
+kernel void
+shade_samples(global const FrameParams* restrict frame, global const uint* restrict ray_count,
+              global const float4* restrict albedo, global const float4* restrict specular,
+              global const float4* restrict emission, global const float4* restrict irradiance,
+              global const float4* restrict highlight, global const float* restrict openness,
+              global float4* restrict colour) {
+    const uint slot = get_global_id(0);
+    if (slot >= *ray_count)
+        return;
+    float3 reflected = vector_at(frame->ambient);
+    if (openness)
+        reflected = reflected * openness[slot];
+    if (irradiance)
+        reflected = reflected + irradiance[slot].xyz;
+    float3 radiance = fma3(albedo[slot].xyz, reflected, emission[slot].xyz);
+    if (highlight)
+        radiance = fma3(specular[slot].xyz, highlight[slot].xyz, radiance);
+    colour[slot] = (float4)(radiance, 1.0f);
+}
