@@ -91,13 +91,6 @@ MACULA_INLINE TraceRay make_trace_ray(float ox, float oy, float oz, float dx, fl
     return r;
 }
 
-MACULA_INLINE float m_min(float a, float b) {
-    return a < b ? a : b;
-}
-MACULA_INLINE float m_max(float a, float b) {
-    return a > b ? a : b;
-}
-
 /* Entry and exit of the ray into a box. The box is entered when *near <= *far; `near` is at least
  * t_min. Callers cull only where near > far or near > best t: never on equality. */
 MACULA_INLINE void box_interval(const TraceRay* r, float lo_x, float lo_y, float lo_z, float hi_x,
