@@ -1,0 +1,13 @@
+// The makers behind the registry, one for each scene.
+#pragma once
+
+#include "scenes/procedural/registry.hpp"
+
+namespace macula::scene::procedural {
+
+Scene make_cornell(const SceneParams& params);
+Scene make_whitted(const SceneParams& params);
+Scene make_tunnel_geometry(const SceneParams& params);
+Scene make_tunnel_maps(const SceneParams& params);
+
+} // namespace macula::scene::procedural

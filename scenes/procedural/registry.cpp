@@ -1,0 +1,51 @@
+#include "scenes/procedural/registry.hpp"
+
+#include <array>
+
+#include "scenes/procedural/builtin.hpp"
+
+namespace macula::scene::procedural {
+namespace {
+
+struct Entry {
+    std::string_view name;
+    Scene (*make)(const SceneParams&);
+};
+
+constexpr std::array kScenes{
+    Entry{"cornell", make_cornell},
+    Entry{"whitted", make_whitted},
+    Entry{"tunnel_geometry", make_tunnel_geometry},
+    Entry{"tunnel_maps", make_tunnel_maps},
+};
+
+// Meshes made here are placed once, where they were built, unless the maker placed them itself.
+void place_meshes(Scene& scene) {
+    if (!scene.instances.empty())
+        return;
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i)
+        scene.instances.push_back({i, Transform{}, scene.meshes[i].name});
+}
+
+} // namespace
+
+std::optional<Scene> make(std::string_view name, const SceneParams& params) {
+    for (const Entry& entry : kScenes) {
+        if (entry.name != name)
+            continue;
+        Scene scene = entry.make(params);
+        scene.name = name;
+        place_meshes(scene);
+        return scene;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string_view> names() {
+    std::vector<std::string_view> all;
+    for (const Entry& entry : kScenes)
+        all.push_back(entry.name);
+    return all;
+}
+
+} // namespace macula::scene::procedural
