@@ -23,7 +23,7 @@ endif()
 # The delimiter of the raw string literals; no kernel may contain it.
 set(delimiter "MACULA_KERNEL")
 file(STRINGS ${LIST} files)
-set(code "// Written by cmake/EmbedKernels.cmake.\n#include \"kernels/embedded.hpp\"\n\n")
+set(code "// Written by cmake/EmbedKernels.cmake.\n#include \"host/kernel/embedded.hpp\"\n\n")
 string(APPEND code "namespace macula::kernel {\nnamespace {\n\n")
 string(APPEND code "constexpr EmbeddedFile kFiles[] = {\n")
 foreach(path IN LISTS files)

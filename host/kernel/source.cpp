@@ -1,7 +1,7 @@
 #include "host/kernel/source.hpp"
 
 #include "host/cl/error.hpp"
-#include "kernels/embedded.hpp"
+#include "host/kernel/embedded.hpp"
 
 #include <algorithm>
 #include <fstream>
