@@ -39,6 +39,7 @@ class TextureSet {
     // `decode` false every texture is 1 x 1, white and opaque.
     TextureSet(Scene& scene, bool decode) : scene_(scene), decode_(decode) {}
 
+    bool decodes() const { return decode_; }
     // Index of the texture in scene.textures.
     std::uint32_t add(const TextureRequest& request);
 
