@@ -19,6 +19,7 @@ struct LoadOptions {
     // environment variable MACULA_SCENE_PATH (separated by ':') follow these.
     std::vector<std::filesystem::path> search_path;
     std::uint64_t max_input_bytes = kDefaultMaxInputBytes; // for each file, unpacked
+    int nesting = 0;      // how many scene files led here; set by the loader
     bool textures = true; // false: every texture becomes the 1 x 1 white one (fast, for geometry)
 };
 
