@@ -6,7 +6,8 @@
 /* One work-item a slot; the launch covers slot_count(width, height), which is the ray count. */
 kernel void generate_primary_rays(global const FrameParams* restrict frame, uint sample,
                                   global RayBlock* restrict rays, global uint* restrict pixels,
-                                  global uint* restrict ray_count) {
+                                  global uint* restrict ray_count,
+                                  global ulong* restrict ray_totals, uint ray_class) {
     const uint slot = get_global_id(0);
     const uint width = frame->width, height = frame->height;
     uint x, y;
@@ -29,6 +30,8 @@ kernel void generate_primary_rays(global const FrameParams* restrict frame, uint
     block->direction_z[lane] = direction.z;
     block->t_max[lane] = inside ? MACULA_BACKGROUND_DEPTH : -1.0f;
     pixels[slot] = inside ? pixel : MACULA_NO_PIXEL;
-    if (slot == 0u)
+    if (slot == 0u) {
         *ray_count = (uint)get_global_size(0);
+        ray_totals[ray_class] += width * height;
+    }
 }

@@ -24,8 +24,8 @@ MACULA_INLINE void stratified_point(uint key, uint sample, uint dimension, uint 
     const uint rows = count / columns;
     const float x = (float)(index % columns) + random_unit(key, sample, dimension);
     const float y = (float)(index / columns) + random_unit(key, sample, dimension + 1u);
-    *u = smaller(m_divide(x, (float)columns), 0x1.fffffep-1f);
-    *v = smaller(m_divide(y, (float)rows), 0x1.fffffep-1f);
+    *u = m_min(m_divide(x, (float)columns), 0x1.fffffep-1f);
+    *v = m_min(m_divide(y, (float)rows), 0x1.fffffep-1f);
 }
 
 /* Two unit vectors that make an orthonormal basis with the unit vector n (Duff et al. 2017). */

@@ -51,9 +51,9 @@ MACULA_INLINE float3 transform_size(MACULA_GLOBAL const float* m, float3 p) {
 }
 
 MACULA_INLINE float3 largest_of_three(float3 a, float3 b, float3 c) {
-    return make3(larger(larger(fabs(a.x), fabs(b.x)), fabs(c.x)),
-                 larger(larger(fabs(a.y), fabs(b.y)), fabs(c.y)),
-                 larger(larger(fabs(a.z), fabs(b.z)), fabs(c.z)));
+    return make3(m_max(m_max(fabs(a.x), fabs(b.x)), fabs(c.x)),
+                 m_max(m_max(fabs(a.y), fabs(b.y)), fabs(c.y)),
+                 m_max(m_max(fabs(a.z), fabs(b.z)), fabs(c.z)));
 }
 
 /* The instance that owns a scene-wide triangle id: the last one whose first id is not above it. */
@@ -149,7 +149,7 @@ MACULA_INLINE float surface_lod(const SurfacePoint* s, float cone_width, float3 
     const float squared = dot3(direction, direction);
     const float cosine = fabs(dot3(s->geometric_normal, direction)) * m_inverse_sqrt(squared);
     const float width = clamped(cone_width, 1e-18f, 1e18f);
-    return s->log2_density + m_log2(width) - m_log2(larger(cosine, 1e-4f));
+    return s->log2_density + m_log2(width) - m_log2(m_max(cosine, 1e-4f));
 }
 
 /* The normal of a tangent-space map turned into the world, kept above the geometric surface. */

@@ -3,7 +3,7 @@
 #ifndef MACULA_LIB_VECTOR_H
 #define MACULA_LIB_VECTOR_H
 
-#include "lib/math.h"
+#include "lib/ray.h"
 
 #ifdef __OPENCL_VERSION__
 MACULA_INLINE float3 make3(float x, float y, float z) {
@@ -60,17 +60,11 @@ MACULA_INLINE float3 cross3(float3 a, float3 b) {
     return make3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)),
                  fma(a.x, b.y, -(a.y * b.x)));
 }
-MACULA_INLINE float larger(float a, float b) {
-    return a > b ? a : b;
-}
-MACULA_INLINE float smaller(float a, float b) {
-    return a < b ? a : b;
-}
 MACULA_INLINE float clamped(float x, float lo, float hi) {
     return x < lo ? lo : (x > hi ? hi : x);
 }
 MACULA_INLINE float largest3(float3 a) {
-    return larger(larger(fabs(a.x), fabs(a.y)), fabs(a.z));
+    return m_max(m_max(fabs(a.x), fabs(a.y)), fabs(a.z));
 }
 
 /* v scaled to unit length; `fallback` where v is zero or too small to have a direction. Components

@@ -16,11 +16,14 @@ kernel void generate_ambient_occlusion_rays(
     global const uint* restrict queue_count, uint first, global const uint* restrict pixels,
     global const float4* restrict position, global const float4* restrict geometric_normal,
     global const float4* restrict shading_normal, global RayBlock* restrict rays,
-    global uint* restrict ray_count) {
+    global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint entry = get_global_id(0), count = batch_count(*queue_count, first);
     const uint samples = frame->ambient_occlusion_samples;
-    if (entry == 0u)
-        *ray_count = batch_rays(count, samples, (uint)get_global_size(0));
+    if (entry == 0u) {
+        const uint capacity = (uint)get_global_size(0);
+        *ray_count = batch_rays(count, samples, capacity);
+        ray_totals[ray_class] += (count < capacity ? count : capacity) * samples;
+    }
     if (entry >= padded_count(count))
         return;
     const bool used = entry < count;

@@ -20,18 +20,19 @@ kernel void flag_lit_surfaces(global const uint* restrict ray_count,
 }
 
 /* One work-item an entry of the batch; it makes the rays of all of the light's samples. */
-kernel void generate_shadow_rays(global const FrameParams* restrict frame, uint sample,
-                                 global const Light* restrict lights, uint light,
-                                 global const uint* restrict queue,
-                                 global const uint* restrict queue_count, uint first,
-                                 global const uint* restrict pixels,
-                                 global const float4* restrict position,
-                                 global const float4* restrict geometric_normal,
-                                 global RayBlock* restrict rays, global uint* restrict ray_count) {
+kernel void generate_shadow_rays(
+    global const FrameParams* restrict frame, uint sample, global const Light* restrict lights,
+    uint light, global const uint* restrict queue, global const uint* restrict queue_count,
+    uint first, global const uint* restrict pixels, global const float4* restrict position,
+    global const float4* restrict geometric_normal, global RayBlock* restrict rays,
+    global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint entry = get_global_id(0), count = batch_count(*queue_count, first);
     const uint samples = lights[light].samples;
-    if (entry == 0u)
-        *ray_count = batch_rays(count, samples, (uint)get_global_size(0));
+    if (entry == 0u) {
+        const uint capacity = (uint)get_global_size(0);
+        *ray_count = batch_rays(count, samples, capacity);
+        ray_totals[ray_class] += (count < capacity ? count : capacity) * samples;
+    }
     if (entry >= padded_count(count))
         return;
     const bool used = entry < count;

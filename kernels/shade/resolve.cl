@@ -11,18 +11,30 @@ kernel void average_samples(global const FrameParams* restrict frame, uint sampl
     if (slot >= *ray_count || pixels[slot] == MACULA_NO_PIXEL)
         return;
     const uint pixel = pixels[slot], count = frame->samples_per_pixel;
-    const float4 value = samples[slot];
-    float4 sum = sample == 0u ? value : image[pixel] + value;
-    if (sample + 1u == count && count > 1u)
-        sum = sum * m_divide(1.0f, (float)count);
-    image[pixel] = sum;
+    float4 sum = samples[slot];
+    sum = sample == 0u ? sum : image[pixel] + sum;
+    image[pixel] = sample + 1u == count ? sum * m_divide(1.0f, (float)count) : sum;
+}
+
+kernel void average_scalar_samples(global const FrameParams* restrict frame, uint sample,
+                                   global const uint* restrict ray_count,
+                                   global const uint* restrict pixels,
+                                   global const float* restrict samples,
+                                   global float* restrict image) {
+    const uint slot = get_global_id(0);
+    if (slot >= *ray_count || pixels[slot] == MACULA_NO_PIXEL)
+        return;
+    const uint pixel = pixels[slot], count = frame->samples_per_pixel;
+    float sum = samples[slot];
+    sum = sample == 0u ? sum : image[pixel] + sum;
+    image[pixel] = sample + 1u == count ? sum * m_divide(1.0f, (float)count) : sum;
 }
 
 /* Copies the first sample's words to its pixel: for what has no meaningful mean (ids, positions,
  * normals). `words`: 32-bit words an element. */
-kernel void store_first_sample(uint words, global const uint* restrict ray_count,
-                               global const uint* restrict pixels,
-                               global const uint* restrict samples, global uint* restrict image) {
+kernel void keep_first_sample(uint words, global const uint* restrict ray_count,
+                              global const uint* restrict pixels,
+                              global const uint* restrict samples, global uint* restrict image) {
     const uint slot = get_global_id(0);
     if (slot >= *ray_count || pixels[slot] == MACULA_NO_PIXEL)
         return;

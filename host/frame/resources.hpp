@@ -1,0 +1,50 @@
+// The named device buffers of a method.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "host/cl/device.hpp"
+#include "shared/camera.h"
+
+namespace macula::frame {
+
+struct Resource {
+    std::string name;
+    std::uint32_t element_bytes = 0;
+    std::uint64_t count = 0;
+};
+
+class Resources {
+  public:
+    explicit Resources(compute::Device& device);
+
+    void allocate(const Resource& resource);
+    // Allocates a second buffer, filled with zeros, for the last frame's contents.
+    void keep_history(const Resource& resource);
+    // The largest of all requests of one name is allocated.
+    void reserve_scratch(const Resource& resource);
+    void allocate_scratch();
+
+    void set_params(const shared::FrameParams& params);
+    compute::Buffer& params() { return params_; }
+
+    // Empty for what was not allocated.
+    compute::Buffer& current(const std::string& name);
+    compute::Buffer& last(const std::string& name);
+    // Throws std::out_of_range for a name that was not reserved.
+    compute::Buffer& scratch(const std::string& name);
+
+    // The frame's contents become the last frame's.
+    void advance();
+    void clear_history();
+
+  private:
+    compute::Device& device_;
+    compute::Buffer params_, none_;
+    std::map<std::string, compute::Buffer> current_, last_, scratch_;
+    std::map<std::string, std::uint64_t> scratch_bytes_;
+};
+
+} // namespace macula::frame

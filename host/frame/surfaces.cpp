@@ -1,0 +1,109 @@
+#include "host/frame/surfaces.hpp"
+
+#include <map>
+
+namespace macula::frame {
+namespace {
+
+void store(const glm::vec3& v, float (&out)[3]) {
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+shared::SurfaceVertex make_vertex(const scene::Mesh& mesh, std::size_t i) {
+    shared::SurfaceVertex vertex{};
+    store(mesh.positions[i], vertex.position);
+    if (!mesh.normals.empty())
+        store(mesh.normals[i], vertex.normal);
+    if (!mesh.uvs.empty()) {
+        vertex.uv[0] = mesh.uvs[i].x;
+        vertex.uv[1] = mesh.uvs[i].y;
+    }
+    return vertex;
+}
+
+std::uint32_t entry_count(std::span<const MeshPart> parts) {
+    std::uint32_t count = 0;
+    for (const MeshPart& part : parts)
+        count = std::max(count, part.first_entry + part.triangle_count);
+    return count;
+}
+
+// First vertex of each mesh that some part uses, and the number of all.
+std::map<std::uint32_t, std::uint32_t>
+place_vertices(const scene::Scene& scene, std::span<const MeshPart> parts, std::uint64_t& count) {
+    std::map<std::uint32_t, std::uint32_t> first;
+    count = 0;
+    for (const MeshPart& part : parts) {
+        if (first.contains(part.mesh))
+            continue;
+        first[part.mesh] = static_cast<std::uint32_t>(count);
+        count += scene.meshes[part.mesh].positions.size();
+    }
+    return first;
+}
+
+shared::SurfaceMaterial make_material(const scene::Material& m, const TextureData& textures) {
+    const auto slot = [&](std::uint32_t texture) {
+        return texture < textures.slot_of.size() ? textures.slot_of[texture] : MACULA_NO_TEXTURE;
+    };
+    shared::SurfaceMaterial out{};
+    store(m.diffuse, out.diffuse);
+    store(m.specular, out.specular);
+    store(m.emission, out.emission);
+    out.shininess = m.shininess;
+    out.diffuse_texture = slot(m.diffuse_texture);
+    out.specular_texture = slot(m.specular_texture);
+    out.emission_texture = slot(m.emission_texture);
+    out.normal_texture = slot(m.normal_texture);
+    return out;
+}
+
+// A kernel must be given some memory, also where there is nothing in it.
+template <class T>
+compute::Buffer upload(compute::Device& device, const std::vector<T>& values, const char* what) {
+    if (values.empty())
+        return device.upload(std::span<const T>(std::vector<T>(1)), what);
+    return device.upload(std::span<const T>(values), what);
+}
+
+} // namespace
+
+DeviceSurfaces::DeviceSurfaces(compute::Device& device, const scene::Scene& scene,
+                               std::span<const MeshPart> parts) {
+    std::uint64_t vertex_count = 0;
+    const auto first_vertex = place_vertices(scene, parts, vertex_count);
+    vertices = device.allocate_array<shared::SurfaceVertex>(vertex_count, "vertex attributes");
+    triangles =
+        device.allocate_array<shared::SurfaceTriangle>(entry_count(parts), "triangle attributes");
+    {
+        auto out = vertices.map_write<shared::SurfaceVertex>();
+        for (const auto& [mesh, first] : first_vertex)
+            for (std::size_t i = 0; i < scene.meshes[mesh].positions.size(); ++i)
+                out[first + i] = make_vertex(scene.meshes[mesh], i);
+    }
+    {
+        auto out = triangles.map_write<shared::SurfaceTriangle>();
+        for (const MeshPart& part : parts) {
+            const scene::Mesh& mesh = scene.meshes[part.mesh];
+            const std::uint32_t first = first_vertex.at(part.mesh);
+            for (std::uint32_t i = 0; i < part.triangle_count; ++i) {
+                const glm::uvec3& t = mesh.triangles[i];
+                out[part.first_entry + i] = {{first + t.x, first + t.y, first + t.z},
+                                             mesh.triangle_material[i]};
+            }
+        }
+    }
+    const TextureData data(scene);
+    std::vector<shared::SurfaceMaterial> table;
+    for (const scene::Material& material : scene.materials)
+        table.push_back(make_material(material, data));
+    materials = upload(device, table, "materials");
+    textures = upload(device, data.textures, "textures");
+    levels = upload(device, data.levels, "texture levels");
+    texels = upload(device, data.texels, "texels");
+    decode = upload(device, decoding_table(), "texel decoding table");
+}
+
+} // namespace macula::frame

@@ -1,0 +1,36 @@
+// The methods by name: ways to make a frame. A method is one file that lists its stages, and one
+// line in registry.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "host/frame/graph.hpp"
+#include "host/frame/lights.hpp"
+#include "host/stage/kit.hpp"
+
+namespace macula::method {
+
+struct Options {
+    frame::LightMode lights = frame::LightMode::point;
+};
+
+struct Method {
+    const char* name;
+    const char* purpose; // one line
+    frame::Graph (*make)(const stage::Kit& kit, const Options& options);
+};
+
+std::span<const Method> methods();
+// Throws std::invalid_argument that lists the known names.
+const Method& find_method(std::string_view name);
+
+// host/method/<name>.cpp
+frame::Graph make_full(const stage::Kit& kit, const Options& options);
+
+// The images that every method with a slot-ordered G-buffer can deliver besides its own colour:
+// stages for within for_each_sample. Their names are those of render::image_formats().
+std::vector<frame::Stage> surface_images(const stage::Kit& kit, const Options& options);
+
+} // namespace macula::method

@@ -1,0 +1,32 @@
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "host/method/method.hpp"
+
+namespace macula::method {
+namespace {
+
+constexpr std::array kMethods = {
+    Method{"full", "every pixel, any samples per pixel", make_full},
+};
+
+} // namespace
+
+std::span<const Method> methods() {
+    return kMethods;
+}
+
+const Method& find_method(std::string_view name) {
+    std::string known;
+    for (const Method& method : kMethods) {
+        if (method.name == name)
+            return method;
+        known += known.empty() ? "" : ", ";
+        known += method.name;
+    }
+    throw std::invalid_argument(fmt::format("there is no method \"{}\"; there is {}", name, known));
+}
+
+} // namespace macula::method

@@ -1,0 +1,216 @@
+#include "host/render/renderer.hpp"
+
+#include <chrono>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "host/frame/surfaces.hpp"
+#include "host/kernel/library.hpp"
+#include "host/method/method.hpp"
+
+namespace macula::render {
+namespace {
+
+constexpr std::array kFormats = {
+    ImageFormat{"colour", 4, 3, false, "linear RGB radiance, mean of the samples"},
+    ImageFormat{"albedo", 4, 3, false, "diffuse reflectance, linear RGB, mean of the samples"},
+    ImageFormat{"irradiance", 4, 3, false, "direct light over pi, linear RGB, mean"},
+    ImageFormat{"ambient occlusion", 1, 1, false, "part of the hemisphere that is open, mean"},
+    ImageFormat{"depth", 1, 1, false, "along the view axis, world units; 1e30: background"},
+    ImageFormat{"position", 4, 3, false, "world space"},
+    ImageFormat{"geometric normal", 4, 3, false, "unit, towards the viewer; 0: background"},
+    ImageFormat{"shading normal", 4, 3, false, "unit, interpolated and mapped; 0: background"},
+    ImageFormat{"triangle", 1, 1, true, "scene-wide id; 4294967295: background"},
+    ImageFormat{"material", 1, 1, true, "index; 4294967295: background"},
+    ImageFormat{"motion", 2, 2, false, "pixels: last frame's position minus this frame's"},
+};
+
+bool has_highlights(const scene::Scene& scene) {
+    for (const scene::Material& m : scene.materials)
+        if (m.specular.x > 0.0f || m.specular.y > 0.0f || m.specular.z > 0.0f)
+            return true;
+    return false;
+}
+
+frame::FrameSettings settings_of(const scene::Scene& scene, const Options& options,
+                                 std::size_t lights) {
+    const bool occlusion = options.lights == frame::LightMode::ambient_occlusion;
+    frame::FrameSettings s;
+    s.width = options.width;
+    s.height = options.height;
+    s.samples_per_pixel = options.samples_per_pixel;
+    s.seed = options.seed;
+    s.light_count = static_cast<std::uint32_t>(lights);
+    if (occlusion) {
+        s.ambient_occlusion_samples = options.ambient_occlusion_samples;
+        s.ambient_occlusion_radius = options.ambient_occlusion_radius > 0.0f
+                                         ? options.ambient_occlusion_radius
+                                         : frame::ambient_occlusion_radius(scene);
+    }
+    for (int i = 0; i < 3; ++i) {
+        s.ambient[i] = occlusion ? 1.0f : scene.ambient[i];
+        s.background[i] = scene.background[i];
+    }
+    frame::check(s);
+    if (occlusion && s.ambient_occlusion_samples == 0)
+        throw std::invalid_argument("lights \"ao\" need at least one ambient occlusion sample");
+    return s;
+}
+
+// What the renderer needs of a scene once its geometry is on the device.
+scene::Scene views_of(const scene::Scene& scene) {
+    scene::Scene views;
+    views.cameras = scene.cameras;
+    views.path = scene.path;
+    return views;
+}
+
+compute::Buffer zeroed_counters(compute::Device& device) {
+    const std::array<std::uint64_t, kernel::kRayClasses.size()> zeros{};
+    return device.upload(std::span(zeros), "ray counts");
+}
+
+} // namespace
+
+std::span<const ImageFormat> image_formats() {
+    return kFormats;
+}
+
+std::uint64_t FrameReport::total_rays() const {
+    std::uint64_t total = 0;
+    for (const std::uint64_t count : rays)
+        total += count;
+    return total;
+}
+
+struct Renderer::State {
+    State(const compute::Device& on, const scene::Scene& scene, const Options& o)
+        : device(on), options(o), views(views_of(scene)), ray_totals(zeroed_counters(device)),
+          lights(frame::make_lights(scene, o.lights, o.light_samples)),
+          settings(settings_of(scene, o, lights.size())), geometry(device, scene, o.geometry),
+          surfaces(device, scene, geometry.parts()),
+          tracer(device, geometry, stage::choose_variants(device, o.variant)),
+          graph(method::find_method(o.method).make(
+              {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
+               settings.ambient_occlusion_samples, has_highlights(scene), ray_totals},
+              {o.lights})),
+          timings(o.warm_up_frames) {
+        std::set<std::string> outputs(o.images.begin(), o.images.end());
+        outputs.insert("colour");
+        graph.compile(device, outputs);
+    }
+
+    compute::Device device;
+    Options options;
+    scene::Scene views;
+    kernel::Library library;
+    compute::Buffer ray_totals;
+    std::vector<shared::Light> lights;
+    frame::FrameSettings settings;
+    frame::DeviceGeometry geometry;
+    frame::DeviceSurfaces surfaces;
+    stage::Tracer tracer;
+    frame::Graph graph;
+    frame::Timings timings;
+    std::optional<shared::Camera> last_camera;
+    std::array<std::uint64_t, kernel::kRayClasses.size()> last_rays{};
+};
+
+Renderer::Renderer(const compute::Device& device, const scene::Scene& scene, const Options& options)
+    : state_(std::make_unique<State>(device, scene, options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+FrameReport Renderer::render(std::uint32_t frame) {
+    return render(frame, frame::camera_on_path(state_->views, frame));
+}
+
+FrameReport Renderer::render(std::uint32_t frame, const scene::Camera& view) {
+    State& s = *state_;
+    const frame::Tangents tangents = s.options.tangents.value_or(
+        frame::tangents_of(view.vertical_fov_degrees, s.options.width, s.options.height));
+    const shared::Camera camera = frame::make_camera(view, tangents);
+    const shared::FrameParams params = frame::make_params(s.settings, frame, camera, s.last_camera);
+    s.last_camera = camera;
+
+    s.device.finish();
+    s.device.timeline().take();
+    const auto start = std::chrono::steady_clock::now();
+    s.graph.execute(params);
+    s.device.finish();
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+
+    FrameReport report;
+    report.frame = frame;
+    report.wall_ms = wall.count();
+    report.stages = frame::sum_by_stage(s.device.timeline().take());
+    s.timings.add(report.stages, report.wall_ms);
+    const auto totals = s.ray_totals.map_read<std::uint64_t>();
+    for (std::size_t i = 0; i < report.rays.size(); ++i) {
+        report.rays[i] = totals[i] - s.last_rays[i];
+        s.last_rays[i] = totals[i];
+    }
+    return report;
+}
+
+Image Renderer::map(const std::string& name) const {
+    for (const ImageFormat& format : kFormats) {
+        const compute::Buffer& buffer = state_->graph.result(name);
+        if (format.name != name || !buffer)
+            continue;
+        auto mapping = buffer.map_read<std::uint32_t>();
+        const std::span<const std::uint32_t> words(mapping.data(), mapping.size());
+        std::span<const float> floats;
+        if (!format.integer)
+            floats = {reinterpret_cast<const float*>(words.data()), words.size()};
+        return {state_->options.width,
+                state_->options.height,
+                format.components,
+                format.integer,
+                floats,
+                words,
+                std::move(mapping)};
+    }
+    throw std::invalid_argument(
+        fmt::format("image \"{}\" was not asked for when the renderer was made", name));
+}
+
+std::string Renderer::hash() const {
+    const Image colour = map("colour");
+    return fmt::format("{:016x}", XXH3_64bits(colour.words.data(), colour.words.size_bytes()));
+}
+
+void Renderer::set_transforms(std::span<const scene::Transform> world_from_object) {
+    state_->geometry.set_transforms(world_from_object);
+}
+
+void Renderer::reset() {
+    state_->last_camera.reset();
+    state_->graph.forget();
+}
+
+const Options& Renderer::options() const {
+    return state_->options;
+}
+
+const frame::Timings& Renderer::timings() const {
+    return state_->timings;
+}
+
+const frame::GeometryStatistics& Renderer::geometry() const {
+    return state_->geometry.statistics();
+}
+
+std::string Renderer::variant(kernel::RayClass ray_class) const {
+    return state_->tracer.choice(ray_class).variant->name;
+}
+
+std::string Renderer::explain() const {
+    return state_->graph.explain();
+}
+
+} // namespace macula::render

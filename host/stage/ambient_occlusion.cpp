@@ -1,0 +1,75 @@
+#include "host/stage/ambient_occlusion.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "host/kernel/prefix_sum.hpp"
+#include "host/stage/queue.hpp"
+
+namespace macula::stage {
+namespace {
+
+class AmbientOcclusion {
+  public:
+    explicit AmbientOcclusion(const Kit& kit)
+        : kit_(kit), compaction_(kit.library, kit.device, kit.slots()) {
+        const kernel::VariantKey key("shade/ambient_occlusion");
+        flag_ = kit.library.kernel(key, "flag_surfaces", kit.device);
+        generate_ = kit.library.kernel(key, "generate_ambient_occlusion_rays", kit.device);
+        average_ = kit.library.kernel(key, "average_ambient_occlusion", kit.device);
+    }
+
+    void operator()(frame::Run& run) {
+        run["surface openness"].fill(0);
+        flag_.set(run["ray count"], run["surface triangle"], run.scratch("queue flags"))
+            .launch("flag surfaces", {kit_.slots()}, {kGroup});
+        compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
+                        run.scratch("queue count"), "queue surfaces");
+        const std::uint32_t samples = kit_.ambient_occlusion_samples;
+        const std::uint32_t entries = batch_entries(kit_, samples);
+        for_each_batch(kit_, entries, [&](std::uint32_t first) {
+            generate_
+                .set(run.params_buffer(), run.sample(), run.scratch("queue"),
+                     run.scratch("queue count"), first, run["pixel of slot"],
+                     run["surface position"], run["surface geometric normal"],
+                     run["surface shading normal"], run.scratch("queued rays"),
+                     run.scratch("queued ray count"), kit_.ray_totals,
+                     static_cast<std::uint32_t>(kernel::RayClass::ambient_occlusion))
+                .launch("generate ambient occlusion rays", {entries}, {kGroup});
+            kit_.tracer.any(kernel::RayClass::ambient_occlusion, run.scratch("queued rays"),
+                            run.scratch("queued ray count"), entries * samples,
+                            run.scratch("occluded"), "trace ambient occlusion rays");
+            average_
+                .set(run.params_buffer(), run.scratch("queue"), run.scratch("queue count"), first,
+                     run.scratch("occluded"), run["surface openness"])
+                .launch("average ambient occlusion", {entries}, {kGroup});
+        });
+    }
+
+  private:
+    Kit kit_;
+    kernel::Compaction compaction_;
+    compute::Kernel flag_, generate_, average_;
+};
+
+} // namespace
+
+frame::Stage ambient_occlusion(const Kit& kit) {
+    frame::Stage stage;
+    stage.name = "gather ambient occlusion";
+    stage.reads = {"ray count",
+                   "pixel of slot",
+                   "surface triangle",
+                   "surface position",
+                   "surface geometric normal",
+                   "surface shading normal"};
+    stage.writes = {per_slot(kit, "surface openness", 4)};
+    stage.scratch = queue_scratch(kit, std::max(kit.ambient_occlusion_samples, 1u));
+    stage.prepare = [kit] {
+        auto body = std::make_shared<AmbientOcclusion>(kit);
+        return [body](frame::Run& run) { (*body)(run); };
+    };
+    return stage;
+}
+
+} // namespace macula::stage

@@ -1,0 +1,42 @@
+// What every stage is made from: the device, the scene on it, and the size of the frame.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/cl/device.hpp"
+#include "host/frame/geometry.hpp"
+#include "host/frame/graph.hpp"
+#include "host/frame/surfaces.hpp"
+#include "host/kernel/library.hpp"
+#include "host/stage/trace.hpp"
+#include "shared/light.h"
+
+namespace macula::stage {
+
+struct Kit {
+    compute::Device& device;
+    kernel::Library& library;
+    frame::DeviceGeometry& geometry;
+    frame::DeviceSurfaces& surfaces;
+    Tracer& tracer;
+    std::uint32_t width, height; // pixels
+    std::vector<shared::Light> lights;
+    std::uint32_t ambient_occlusion_samples;
+    bool highlights; // some material reflects specularly
+    // Rays traced so far, by kernel::RayClass: one 64-bit counter each on the device.
+    compute::Buffer ray_totals;
+
+    std::uint32_t slots() const; // of the order of lib/camera.h; a multiple of 1024
+    std::uint64_t pixels() const { return std::uint64_t{width} * height; }
+};
+
+// Work-items in a group of all shading kernels: slots and batches are multiples of it.
+inline constexpr std::size_t kGroup = 64;
+
+// A resource with one entry for each ray slot, or for each pixel.
+frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t element_bytes);
+frame::Resource per_pixel(const Kit& kit, const std::string& name, std::uint32_t element_bytes);
+
+} // namespace macula::stage

@@ -1,0 +1,93 @@
+#include "host/stage/light.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "host/kernel/prefix_sum.hpp"
+#include "host/stage/queue.hpp"
+
+namespace macula::stage {
+namespace {
+
+class DirectLight {
+  public:
+    explicit DirectLight(const Kit& kit)
+        : kit_(kit), compaction_(kit.library, kit.device, kit.slots()) {
+        const kernel::VariantKey key("shade/light");
+        flag_ = kit.library.kernel(key, "flag_lit_surfaces", kit.device);
+        generate_ = kit.library.kernel(key, "generate_shadow_rays", kit.device);
+        add_ = kit.library.kernel(key, "add_light", kit.device);
+        lights_ = kit.device.upload(std::span(kit.lights), "lights");
+    }
+
+    void operator()(frame::Run& run) {
+        run["surface irradiance"].fill(0);
+        if (run["surface highlight"])
+            run["surface highlight"].fill(0);
+        for (std::uint32_t light = 0; light < kit_.lights.size(); ++light)
+            one_light(run, light);
+    }
+
+  private:
+    void one_light(frame::Run& run, std::uint32_t light) {
+        flag_
+            .set(run["ray count"], run["surface triangle"], run["surface position"],
+                 run["surface geometric normal"], lights_, light, run.scratch("queue flags"))
+            .launch("flag lit surfaces", {kit_.slots()}, {kGroup});
+        compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
+                        run.scratch("queue count"), "queue lit surfaces");
+        const std::uint32_t samples = kit_.lights[light].samples;
+        const std::uint32_t entries = batch_entries(kit_, samples);
+        for_each_batch(kit_, entries, [&](std::uint32_t first) {
+            generate_
+                .set(run.params_buffer(), run.sample(), lights_, light, run.scratch("queue"),
+                     run.scratch("queue count"), first, run["pixel of slot"],
+                     run["surface position"], run["surface geometric normal"],
+                     run.scratch("queued rays"), run.scratch("queued ray count"), kit_.ray_totals,
+                     static_cast<std::uint32_t>(kernel::RayClass::shadow))
+                .launch("generate shadow rays", {entries}, {kGroup});
+            kit_.tracer.any(kernel::RayClass::shadow, run.scratch("queued rays"),
+                            run.scratch("queued ray count"), entries * samples,
+                            run.scratch("occluded"), "trace shadow rays");
+            add_.set(run.params_buffer(), run.sample(), lights_, light, run.scratch("queue"),
+                     run.scratch("queue count"), first, run["pixel of slot"],
+                     run["surface position"], run["surface geometric normal"],
+                     run["surface shading normal"], run["surface specular"],
+                     run.scratch("occluded"), run["surface irradiance"], run["surface highlight"])
+                .launch("add light", {entries}, {kGroup});
+        });
+    }
+
+    Kit kit_;
+    kernel::Compaction compaction_;
+    compute::Kernel flag_, generate_, add_;
+    compute::Buffer lights_;
+};
+
+} // namespace
+
+frame::Stage direct_light(const Kit& kit) {
+    std::uint32_t samples = 1;
+    for (const shared::Light& light : kit.lights)
+        samples = std::max(samples, light.samples);
+    frame::Stage stage;
+    stage.name = "gather direct light";
+    stage.reads = {"ray count",
+                   "pixel of slot",
+                   "surface triangle",
+                   "surface position",
+                   "surface geometric normal",
+                   "surface shading normal"};
+    if (kit.highlights)
+        stage.reads.push_back("surface specular");
+    stage.writes = {per_slot(kit, "surface irradiance", 16),
+                    per_slot(kit, "surface highlight", 16)};
+    stage.scratch = queue_scratch(kit, samples);
+    stage.prepare = [kit] {
+        auto body = std::make_shared<DirectLight>(kit);
+        return [body](frame::Run& run) { (*body)(run); };
+    };
+    return stage;
+}
+
+} // namespace macula::stage

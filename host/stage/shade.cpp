@@ -1,0 +1,85 @@
+#include "host/stage/shade.hpp"
+
+namespace macula::stage {
+namespace {
+
+frame::Stage average(const Kit& kit, const std::string& from, const std::string& image,
+                     std::uint32_t element_bytes, const char* entry) {
+    frame::Stage stage;
+    stage.name = "average " + image;
+    stage.reads = {"ray count", "pixel of slot", from};
+    stage.writes = {per_pixel(kit, image, element_bytes)};
+    stage.prepare = [kit, from, image, entry, name = stage.name] {
+        auto kernel = kit.library.kernel(kernel::VariantKey("shade/resolve"), entry, kit.device);
+        return [kit, from, image, name, kernel](frame::Run& run) mutable {
+            kernel
+                .set(run.params_buffer(), run.sample(), run["ray count"], run["pixel of slot"],
+                     run[from], run[image])
+                .launch(name, {kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+} // namespace
+
+frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion) {
+    frame::Stage stage;
+    stage.name = "shade";
+    stage.reads = {"ray count", "surface albedo", "surface emission"};
+    if (direct_light)
+        stage.reads.insert(stage.reads.end(), {"surface irradiance"});
+    if (direct_light && kit.highlights)
+        stage.reads.insert(stage.reads.end(), {"surface specular", "surface highlight"});
+    if (ambient_occlusion)
+        stage.reads.push_back("surface openness");
+    stage.writes = {per_slot(kit, "surface colour", 16)};
+    stage.prepare = [kit, direct_light, ambient_occlusion, name = stage.name] {
+        auto kernel =
+            kit.library.kernel(kernel::VariantKey("shade/shade"), "shade_samples", kit.device);
+        return [=](frame::Run& run) mutable {
+            const bool highlights = direct_light && kit.highlights;
+            const compute::Buffer none;
+            kernel
+                .set(run.params_buffer(), run["ray count"], run["surface albedo"],
+                     highlights ? run["surface specular"] : none, run["surface emission"],
+                     direct_light ? run["surface irradiance"] : none,
+                     highlights ? run["surface highlight"] : none,
+                     ambient_occlusion ? run["surface openness"] : none, run["surface colour"])
+                .launch(name, {kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+frame::Stage average_samples(const Kit& kit, const std::string& from, const std::string& image) {
+    return average(kit, from, image, 16, "average_samples");
+}
+
+frame::Stage average_scalar_samples(const Kit& kit, const std::string& from,
+                                    const std::string& image) {
+    return average(kit, from, image, 4, "average_scalar_samples");
+}
+
+frame::Stage keep_first_sample(const Kit& kit, const std::string& from, const std::string& image,
+                               std::uint32_t element_bytes) {
+    frame::Stage stage;
+    stage.name = "keep the first " + image;
+    stage.reads = {"ray count", "pixel of slot", from};
+    stage.writes = {per_pixel(kit, image, element_bytes)};
+    stage.prepare = [kit, from, image, element_bytes, name = stage.name] {
+        auto kernel = kit.library.kernel(kernel::VariantKey("shade/resolve"), "keep_first_sample",
+                                         kit.device);
+        return [kit, from, image, element_bytes, name, kernel](frame::Run& run) mutable {
+            if (run.sample() != 0)
+                return;
+            kernel
+                .set(element_bytes / 4, run["ray count"], run["pixel of slot"], run[from],
+                     run[image])
+                .launch(name, {kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+} // namespace macula::stage

@@ -1,0 +1,21 @@
+// From surfaces and light to colours, and from slots to pixels.
+#pragma once
+
+#include "host/stage/kit.hpp"
+
+namespace macula::stage {
+
+// G-buffer and light buffer -> "surface colour" (float4 a slot: linear RGB radiance, 1).
+// `direct_light`, `ambient_occlusion`: which parts of the light buffer the method has.
+frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion);
+
+// The mean over the pixel's samples: float or float4 a slot -> the same a pixel.
+frame::Stage average_samples(const Kit& kit, const std::string& from, const std::string& image);
+frame::Stage average_scalar_samples(const Kit& kit, const std::string& from,
+                                    const std::string& image);
+
+// The first sample of each pixel, as it is: for what has no meaningful mean.
+frame::Stage keep_first_sample(const Kit& kit, const std::string& from, const std::string& image,
+                               std::uint32_t element_bytes);
+
+} // namespace macula::stage
