@@ -30,21 +30,22 @@ struct Box {
 
 struct BuildOptions {
     bool spatial_splits = true;
-    float overlap_threshold = 1e-5f;   // alpha of Stich et al. 2009, section 4.5
-    float duplication_budget = 0.30f;  // extra references as a fraction of the triangles
-    float traversal_cost = 1.0f;       // SAH, per inner node
-    float intersection_cost = 1.0f;    // SAH, per triangle reference
-    std::uint32_t bins = 32;           // object and spatial bins per axis, 2..256
-    std::uint32_t threads = 0;         // 0: all
+    float overlap_threshold = 1e-5f;  // alpha of Stich et al. 2009, section 4.5
+    float duplication_budget = 0.30f; // extra references as a fraction of the triangles
+    float traversal_cost = 1.0f;      // SAH, per inner node
+    float intersection_cost = 1.0f;   // SAH, per triangle reference
+    std::uint32_t bins = 32;          // object and spatial bins per axis, 2..256
+    std::uint32_t threads = 0;        // 0: all
     bool operator==(const BuildOptions&) const = default;
 };
 
-// Binary tree over references; leaves hold one reference each. Children precede parents never:
-// node 0 is the root, children have larger indices than their parent.
+// Binary tree over references, in depth-first order: node 0 is the root, the left child of node i
+// is i + 1. A leaf holds one reference. Boxes carry the margins of lib/triangle.h.
 struct TreeNode {
-    Box box;
-    std::int32_t left = -1, right = -1; // both -1: a leaf
-    std::uint32_t triangle = 0;         // of a leaf
+    Box box{};
+    std::uint32_t right = 0;    // index of the right child; 0: a leaf
+    std::uint32_t triangle = 0; // of a leaf
+    bool is_leaf() const { return right == 0; }
 };
 
 struct Tree {
@@ -58,11 +59,11 @@ struct Tree {
 Tree build(const Geometry& geometry, const BuildOptions& options = {});
 
 enum class Layout : std::uint8_t {
-    binary,        // BinaryNode, Triangle leaves
-    skip,          // SkipNode, Triangle leaves
-    wide8_single,  // Wide8Node, Triangle leaves of at most 2
-    wide8_block,   // Wide8Node, TriangleBlock8 leaves
-    quantized8,    // Quantized8Node, Triangle leaves
+    binary,       // BinaryNode, Triangle leaves
+    skip,         // SkipNode, Triangle leaves
+    wide8_single, // Wide8Node, Triangle leaves of at most 2
+    wide8_block,  // Wide8Node, TriangleBlock8 leaves
+    quantized8,   // Quantized8Node, Triangle leaves
 };
 inline constexpr std::array kLayouts = {Layout::binary, Layout::skip, Layout::wide8_single,
                                         Layout::wide8_block, Layout::quantized8};
@@ -74,7 +75,7 @@ struct LaidOut {
     Layout layout = Layout::binary;
     std::vector<std::byte> nodes;     // array of the layout's node struct
     std::vector<std::byte> triangles; // array of Triangle or TriangleBlock8
-    int root = 0;                     // child reference
+    int root = 0;                     // child reference; always an inner node
     std::uint32_t node_count = 0;
     std::uint32_t triangle_entries = 0; // Triangles or TriangleBlock8s
     Box box{};                          // of the whole mesh

@@ -5,18 +5,12 @@
 #include <span>
 
 #include "bvh/bvh.hpp"
+#include "lib/instance.h"
+#include "lib/mask.h"
 #include "lib/triangle.h"
-#include "shared/mask.h"
 #include "shared/ray.h"
 
 namespace macula::bvh {
-
-struct MaskTables {
-    std::span<const shared::uint> slots;
-    std::span<const shared::MaskTriangle> triangles;
-    std::span<const shared::MaskTexture> textures;
-    std::span<const shared::uint> words;
-};
 
 // A scene as the kernels see it: meshes laid out as Layout::binary and concatenated.
 struct ReferenceScene {
@@ -24,7 +18,7 @@ struct ReferenceScene {
     std::span<const shared::Triangle> triangles;
     std::span<const shared::Instance> instances;
     std::span<const shared::BinaryNode> upper_nodes;
-    MaskTables masks;
+    shared::MaskTables masks{};
 };
 
 struct Ray {
@@ -32,10 +26,11 @@ struct Ray {
     float t_min = 0.0f, t_max = 0.0f;
 };
 
-// Tests every triangle of every instance. `geometry[m]` is mesh m in object space.
+// Tests every triangle of every instance. `geometry[m]` is mesh m in object space; its `masked`
+// says which triangles look into `masks`.
 shared::TraceHit closest_by_brute_force(const Ray& ray, std::span<const Geometry> geometry,
                                         std::span<const shared::Instance> instances,
-                                        const MaskTables& masks);
+                                        const shared::MaskTables& masks);
 shared::TraceHit closest(const Ray& ray, const ReferenceScene& scene);
 bool occluded(const Ray& ray, const ReferenceScene& scene);
 

@@ -5,7 +5,8 @@
  * A child reference c >= 0 is the index of an inner node. c < 0 is a leaf: ~c holds
  * (first << 4) | count, count in 1..15, counted in triangles or in triangle blocks as the layout
  * says. An unused child slot has an inverted box (lo = +MACULA_EMPTY, hi = -MACULA_EMPTY), which
- * no ray enters as long as near and far planes are chosen by the direction's sign. */
+ * no ray enters as long as near and far planes are chosen by the direction's sign, and child -1, a
+ * leaf of nothing. A root is always an inner node, of a mesh without triangles too. */
 #ifndef MACULA_SHARED_BVH_H
 #define MACULA_SHARED_BVH_H
 
@@ -86,7 +87,7 @@ MACULA_ASSERT_SIZE(Quantized8Node, 96);
 
 /* One placed mesh. Rows of 3 x 4 matrices: p' = m[0..2] . p + m[3]. `box` is the world box that
  * every hit on the instance must also pass (docs/arithmetic.md): all variants and the brute-force
- * oracle test it with the same code as any node, then clamp t into it. */
+ * oracle test it with the same code as any node, then raise t to its near (lib/instance.h). */
 typedef struct Instance {
     float object_from_world[3][4];
     float world_from_object[3][4];
