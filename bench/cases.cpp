@@ -72,6 +72,22 @@ std::string case_name(const std::string& name) {
     return bare ? path.parent_path().filename().string() : stem;
 }
 
+SurfacePoint surface_point(const scene::Scene& scene, const Surface& surface,
+                           const glm::vec3& origin, const glm::vec3& direction, float t) {
+    const scene::Mesh& mesh = scene.meshes[surface.mesh];
+    const scene::Transform& transform = scene.instances[surface.instance].world_from_object;
+    glm::vec3 p[3];
+    for (int i = 0; i < 3; ++i)
+        p[i] = transform.apply(mesh.positions[mesh.triangles[surface.triangle][i]]);
+    glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const float length = glm::length(normal);
+    // A sliver without an area in fp32 looks at the ray.
+    normal = length > 0.0f ? normal / length : -direction;
+    if (glm::dot(normal, direction) > 0.0f)
+        normal = -normal;
+    return {origin + direction * t, normal};
+}
+
 } // namespace
 
 std::vector<fs::path> scene_folders(std::span<const std::string> given) {
@@ -146,21 +162,16 @@ RaySet make_rays(kernel::RayClass ray_class, const Case& scene_case,
     return primary_rays(scene_case.camera, options.size);
 }
 
-SurfacePoint surface_point(const scene::Scene& scene, std::uint32_t instance, std::uint32_t mesh,
-                           std::uint32_t triangle, const glm::vec3& origin,
-                           const glm::vec3& direction, float t) {
-    const scene::Mesh& m = scene.meshes[mesh];
-    const scene::Transform& transform = scene.instances[instance].world_from_object;
-    glm::vec3 p[3];
-    for (int i = 0; i < 3; ++i)
-        p[i] = transform.apply(m.positions[m.triangles[triangle][i]]);
-    glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-    const float length = glm::length(normal);
-    // A sliver without an area in fp32 looks at the ray.
-    normal = length > 0.0f ? normal / length : -direction;
-    if (glm::dot(normal, direction) > 0.0f)
-        normal = -normal;
-    return {origin + direction * t, normal};
+std::vector<SurfacePoint> surface_points(const Case& scene_case, const RaySet& rays,
+                                         const EmbreeRays& traced) {
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+        const EmbreeHit hit = traced.hit(i);
+        if (hit.surface)
+            points.push_back(surface_point(scene_case.scene, *hit.surface, rays.origin(i),
+                                           rays.direction(i), hit.t));
+    }
+    return points;
 }
 
 } // namespace macula::bench

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/embree_rays.hpp"
 #include "bench/rays.hpp"
 
 namespace macula::bench {
@@ -41,9 +42,8 @@ struct RayOptions {
 RaySet make_rays(kernel::RayClass ray_class, const Case& scene_case,
                  std::span<const SurfacePoint> points, const RayOptions& options);
 
-// The point at t on a triangle (indices into the scene), seen along `direction`.
-SurfacePoint surface_point(const scene::Scene& scene, std::uint32_t instance, std::uint32_t mesh,
-                           std::uint32_t triangle, const glm::vec3& origin,
-                           const glm::vec3& direction, float t);
+// Where the rays that hit something, by Embree's closest hits, did so.
+std::vector<SurfacePoint> surface_points(const Case& scene_case, const RaySet& rays,
+                                         const EmbreeRays& traced);
 
 } // namespace macula::bench

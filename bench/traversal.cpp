@@ -24,13 +24,7 @@ class SceneRun {
         const RaySet primary = make_rays(RayClass::primary, case_, {}, options.rays);
         EmbreeRays traced(embree_, primary, EmbreeCall::packet16);
         traced.run();
-        for (std::uint32_t i = 0; i < primary.count; ++i) {
-            const EmbreeHit hit = traced.hit(i);
-            if (hit.surface)
-                points_.push_back(surface_point(case_.scene, hit.surface->instance,
-                                                hit.surface->mesh, hit.surface->triangle,
-                                                primary.origin(i), primary.direction(i), hit.t));
-        }
+        points_ = surface_points(case_, primary, traced);
     }
 
     void trace(RayClass ray_class, const TraversalProgress& progress) {
