@@ -11,12 +11,8 @@
 
 #include "bvh/bvh.hpp"
 #include "bvh/reference.hpp"
+#include "host/cl/device.hpp"
 #include "scenes/scene.hpp"
-
-namespace macula::compute {
-class Device;
-class Buffer;
-} // namespace macula::compute
 
 namespace macula::frame {
 
@@ -67,16 +63,16 @@ struct GeometryStatistics {
 
 // Buffers of one layout, for the arguments of kernels/traverse/contract.h.
 struct LayoutBuffers {
-    const compute::Buffer* nodes = nullptr;
-    const compute::Buffer* triangles = nullptr;
-    const compute::Buffer* instances = nullptr; // with this layout's roots
+    compute::Buffer nodes;
+    compute::Buffer triangles;
+    compute::Buffer instances; // with this layout's roots
 };
 
 struct MaskBuffers {
-    const compute::Buffer* slots = nullptr;     // uint a per-mesh triangle
-    const compute::Buffer* triangles = nullptr; // shared::MaskTriangle
-    const compute::Buffer* textures = nullptr;  // shared::MaskTexture
-    const compute::Buffer* words = nullptr;     // bits
+    compute::Buffer slots;     // uint a per-mesh triangle
+    compute::Buffer triangles; // shared::MaskTriangle
+    compute::Buffer textures;  // shared::MaskTexture
+    compute::Buffer words;     // bits
 };
 
 class DeviceGeometry {

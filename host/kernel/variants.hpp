@@ -35,21 +35,36 @@ inline constexpr std::array kRayClasses = {
 const char* name(RayClass ray_class);
 std::optional<RayClass> parse_ray_class(std::string_view text);
 
+// A set of ray classes: bits 1 << RayClass.
+using RayClassSet = std::uint8_t;
+constexpr RayClassSet set_of(RayClass ray_class) {
+    return static_cast<RayClassSet>(1u << static_cast<unsigned>(ray_class));
+}
+constexpr bool contains(RayClassSet set, RayClass ray_class) {
+    return (set & set_of(ray_class)) != 0;
+}
+
 // What the registry needs to know of a device; a plain struct, so that a test can make one up.
 struct DeviceTraits {
     bool gpu = false;
     std::uint32_t compute_units = 1;
-    std::uint32_t max_work_group = 1;      // work-items
-    std::uint64_t private_memory_hint = 0; // bytes a work-item before spilling hurts; 0: no limit
+    std::uint32_t max_work_group = 1; // work-items
 };
 DeviceTraits traits_of(const compute::Device& device);
 
-// A tunable number of a variant. It reaches the kernel as the literal MACULA_<NAME>, except
-// `work_group` and `groups_per_unit`, which are launch geometry alone.
+enum class ParameterUse : std::uint8_t {
+    launch,  // only the launch depends on it
+    literal, // the kernel is compiled with it, as MACULA_<NAME>
+};
+
+// A tunable number of a variant. Three names mean the same everywhere: `work_group`, the
+// work-items of a group; `rays_per_item`, which replaces Variant::rays_per_item; and
+// `groups_per_unit`, the resident work-groups on each compute unit of a persistent launch.
 struct Parameter {
     const char* name; // lower case with underscores
     std::uint32_t minimum, maximum, standard;
     bool power_of_two;
+    ParameterUse use;
     const char* meaning; // with the unit
 };
 
@@ -69,13 +84,15 @@ struct Variant {
     std::uint32_t rays_per_item; // of a one_pass launch, standard value
     Launch launch;
     std::span<const Parameter> parameters;
-    // Bits 1 << RayClass. `unsafe`: the variant may take unboundedly longer than the others on
-    // these rays, so that only --variant forces it. `preferred`: the default on that device type.
-    unsigned unsafe;
-    unsigned preferred_on_cpu, preferred_on_gpu;
-    // Bytes of private memory a work-item needs for its stacks and queues; GPUs have few.
+    // `unsafe`: the variant may take unboundedly longer than the others on these rays and does not
+    // apply to them. `preferred`: the default for these rays on that type of device.
+    RayClassSet unsafe, preferred_on_cpu, preferred_on_gpu;
+    // Bytes of private memory that a work-item's stacks and queues take. GPUs have few.
     std::uint32_t private_bytes;
 };
+
+// Private memory beyond which a variant does not apply to a GPU, in bytes a work-item.
+inline constexpr std::uint32_t kMostPrivateBytesOnGpu = 4096;
 
 // All variants, in order of the list; the last one is the reference.
 std::span<const Variant> variants();

@@ -17,6 +17,9 @@ class Buffer;
 namespace macula::frame {
 class DeviceGeometry;
 }
+namespace macula::kernel {
+class Library;
+}
 
 namespace macula::stage {
 
@@ -30,8 +33,12 @@ VariantTable choose_variants(const compute::Device& device, std::string_view for
 
 class Tracer {
   public:
-    // Both references must outlive the tracer. Programs are built at first use.
-    Tracer(compute::Device& device, frame::DeviceGeometry& geometry, VariantTable variants);
+    // All references must outlive the tracer. Programs are built at first use; without a library
+    // the tracer has one of its own. Throws std::invalid_argument for a choice without a variant
+    // or with parameters out of range.
+    Tracer(const compute::Device& device, frame::DeviceGeometry& geometry, VariantTable variants);
+    Tracer(const compute::Device& device, kernel::Library& library, frame::DeviceGeometry& geometry,
+           VariantTable variants);
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;

@@ -3,8 +3,9 @@
  * of neighbouring rays from a counter until none is left, so that no SIMD unit waits for the
  * slowest ray of a whole queue. A ray's result depends on the ray alone, and so not on who takes
  * it. The lower level is traversed as in while_while. */
-#include "lib/traverse_scene.h"
 #include "lib/traverse_while_while.h"
+
+#include "lib/traverse_scene.h"
 
 kernel void trace(TRACE_ARGUMENTS) {
     const TraceScene scene = MACULA_TRACE_SCENE;

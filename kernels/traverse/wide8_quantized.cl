@@ -42,8 +42,6 @@ static inline uint enter_quantized(global const Quantized8Node* node, const Trac
 
 static inline bool traverse_lower(const TraceScene* scene, TraceQuery* query, int root) {
     global const Quantized8Node* nodes = (global const Quantized8Node*)scene->nodes;
-    if (root < 0)
-        return test_leaf(scene, query, root);
     uint stack_node[MACULA_MAX_DEPTH];
     uchar stack_mask[MACULA_MAX_DEPTH];
     uint depth = 0u;

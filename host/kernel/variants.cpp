@@ -1,0 +1,123 @@
+// The manifest: one entry for each file of kernels/traverse (docs/variants.md). What is decided
+// from it stands in variant_choice.cpp.
+#include "host/kernel/variants.hpp"
+
+namespace macula::kernel {
+namespace {
+
+constexpr RayClassSet kNone = 0;
+constexpr RayClassSet kAll = (1u << kRayClasses.size()) - 1u;
+
+constexpr Parameter work_group(std::uint32_t standard) {
+    return {"work_group", 1, 1024, standard, true, ParameterUse::launch, "work-items of a group"};
+}
+
+constexpr std::array kOneRay = {work_group(64)};
+constexpr std::array kPersistent = {
+    work_group(32),
+    Parameter{"groups_per_unit", 1, 256, 32, false, ParameterUse::launch,
+              "resident work-groups on each compute unit"},
+    Parameter{"rays_per_fetch", 1, 64, 2, false, ParameterUse::literal,
+              "rays a work-item that a group takes from the counter at once"},
+};
+
+// Stacks, from the kernels: four bytes an entry, and four more where a distance is kept.
+constexpr std::uint32_t kBinaryStack = 2 * (MACULA_MAX_DEPTH + 1) * 4; // and the upper level's
+constexpr std::uint32_t kWide8Stack = (7 * MACULA_MAX_DEPTH + 8) * 8 + kBinaryStack / 2;
+constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 2;
+
+// In order of preference; the reference is the last.
+constexpr Variant kVariants[] = {
+    {
+        .name = "wide8_quantized",
+        .paper = "Ylitie, Karras and Laine 2017, sections 3 and 4",
+        .layout = bvh::Layout::quantized8,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kAll,
+        .private_bytes = kQuantizedStack,
+    },
+    {
+        .name = "wide8",
+        .paper = "Wald, Benthin and Boulos 2008, section 3",
+        .layout = bvh::Layout::wide8_block,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kAll,
+        .preferred_on_gpu = kNone,
+        .private_bytes = kWide8Stack,
+    },
+    {
+        .name = "persistent",
+        .paper = "Aila and Laine 2009, section 5; Aila, Laine and Karras 2012",
+        .layout = bvh::Layout::binary,
+        .rays_per_item = 1,
+        .launch = Launch::persistent,
+        .parameters = kPersistent,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kAll,
+        .private_bytes = kBinaryStack,
+    },
+    {
+        .name = "speculative_while_while",
+        .paper = "Aila and Laine 2009, section 4",
+        .layout = bvh::Layout::binary,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kNone,
+        .private_bytes = kBinaryStack,
+    },
+    {
+        .name = "if_if",
+        .paper = "Aila and Laine 2009, section 4",
+        .layout = bvh::Layout::binary,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kNone,
+        .private_bytes = kBinaryStack,
+    },
+    {
+        .name = "escape_index",
+        .paper = "Thrane and Simonsen 2005, section 4; Smith et al. 2014",
+        .layout = bvh::Layout::skip,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kNone,
+        .private_bytes = kBinaryStack / 2,
+    },
+    {
+        .name = "while_while",
+        .paper = "Aila and Laine 2009, section 4",
+        .layout = bvh::Layout::binary,
+        .rays_per_item = 1,
+        .launch = Launch::one_pass,
+        .parameters = kOneRay,
+        .unsafe = kNone,
+        .preferred_on_cpu = kNone,
+        .preferred_on_gpu = kNone,
+        .private_bytes = kBinaryStack,
+    },
+};
+
+} // namespace
+
+std::span<const Variant> variants() {
+    return kVariants;
+}
+
+} // namespace macula::kernel
