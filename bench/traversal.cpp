@@ -66,7 +66,7 @@ class SceneRun {
             c.record.rays = ray_class;
             c.record.variant = variant.name;
             c.record.chosen = chosen.variant == &variant;
-            const bool is_unsafe = (variant.unsafe >> static_cast<unsigned>(ray_class) & 1U) != 0;
+            const bool is_unsafe = kernel::contains(variant.unsafe, ray_class);
             if (!(is_named && is_unsafe))
                 c.record.skipped = kernel::why_not(variant, traits, ray_class);
             if (c.record.skipped.empty())
