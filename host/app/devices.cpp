@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <vector>
 
 namespace {
 
@@ -87,13 +88,14 @@ std::string mebibytes(std::uint64_t bytes) {
 
 std::string rounding(const FloatFacts& f) {
     std::string modes;
-    if (f.round_to_nearest)
-        modes += "nearest ";
-    if (f.round_to_zero)
-        modes += "zero ";
-    if (f.round_to_infinity)
-        modes += "infinity ";
-    return modes.empty() ? "none " : modes;
+    const auto add = [&](bool supported, const char* mode) {
+        if (supported)
+            (modes += modes.empty() ? "" : ", ") += mode;
+    };
+    add(f.round_to_nearest, "nearest");
+    add(f.round_to_zero, "zero");
+    add(f.round_to_infinity, "infinity");
+    return modes;
 }
 
 void print(const DeviceFacts& f) {

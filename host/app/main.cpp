@@ -4,8 +4,10 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,17 @@ namespace {
 
 constexpr int kFailure = 1;
 constexpr int kWrongUsage = 2;
+
+/// CLI11 says "a subcommand is required" for an unknown one, too.
+std::string usage_problem(const CLI::ParseError& error, int argc, char** argv) {
+    const auto all = macula::app::commands();
+    const auto is_known = [&](const macula::app::Command& c) {
+        return c.name == std::string(argv[1]);
+    };
+    if (argc < 2 || argv[1][0] == '-' || std::any_of(all.begin(), all.end(), is_known))
+        return error.what();
+    return "there is no command \"" + std::string(argv[1]) + "\"";
+}
 
 int run(int argc, char** argv) {
     CLI::App app("Macula, a portable foveated ray tracer", "macula");
@@ -29,7 +42,7 @@ int run(int argc, char** argv) {
         if (e.get_exit_code() == 0)
             return app.exit(e);
         std::fprintf(stderr, "macula: %s\nRun `macula --help` or `macula COMMAND --help`.\n",
-                     e.what());
+                     usage_problem(e, argc, argv).c_str());
         return kWrongUsage;
     }
     for (const auto& [sub, execute] : added)

@@ -12,6 +12,8 @@ void require_usable(const DeviceFacts& facts) {
     const std::string who = "device \"" + facts.name + "\" cannot run Macula: ";
     if (facts.major < 1 || (facts.major == 1 && facts.minor < 2))
         throw Error(who + "it has \"" + facts.version + "\", and OpenCL 1.2 is needed");
+    if (!facts.full_profile)
+        throw Error(who + "it has the embedded profile, whose arithmetic is not exact enough");
     if (!facts.available)
         throw Error(who + "its driver says that it is not available");
     if (!facts.compiler_available)
@@ -50,6 +52,7 @@ void require_room(std::uint64_t bytes, const std::string& what, const DeviceStat
 Device open(const std::string& selector) {
     std::vector<FoundDevice> found = find_devices();
     std::vector<DeviceFacts> facts;
+    facts.reserve(found.size());
     for (const FoundDevice& device : found)
         facts.push_back(device.facts);
     const DeviceFacts& chosen = select(facts, selector);

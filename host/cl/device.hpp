@@ -94,8 +94,8 @@ class Device {
 };
 
 /// Opens the device that `selector` names (see select()). Each call makes a context and queue of
-/// its own. Throws Error when none matches or when the device cannot run Macula (OpenCL 1.2, a
-/// compiler, little-endian).
+/// its own. Throws Error when none matches or when the device cannot run Macula (OpenCL 1.2, full
+/// profile, a compiler, little-endian).
 Device open(const std::string& selector = "");
 
 } // namespace macula::compute

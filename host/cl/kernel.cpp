@@ -74,7 +74,7 @@ void Kernel::set_one(std::size_t position, const Buffer& buffer) {
     if (buffer && buffer.state()->device != state_->device)
         throw Error("argument " + std::to_string(position) + " of " + state_->full_name() +
                     " is the " + buffer.state()->name() + ", which belongs to another open device");
-    set_bytes(position, &memory, sizeof memory);
+    set_bytes(position, &memory, sizeof(cl_mem));
     state_->buffers.at(position) = buffer.state();
 }
 

@@ -37,11 +37,13 @@ const char* environment(const char* name) {
     return value && *value ? value : nullptr;
 }
 
+/// Unique among processes and threads, beside the file it will become.
 fs::path temporary_name(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
-    fs::path name = path;
-    name += "." + std::to_string(getpid()) + "." + std::to_string(counter++) + ".part";
-    return name;
+    std::string name = path.string();
+    for (const std::string& part : {std::to_string(getpid()), std::to_string(counter++)})
+        (name += '.') += part;
+    return name += ".part";
 }
 
 bool write_file(const fs::path& path, const Header& header, const std::string& body) {

@@ -67,15 +67,31 @@ bool Sources::find(const std::string& path, SourceFile& file) const {
     }
     for (const EmbeddedFile& embedded : embedded_files())
         if (embedded.path == path) {
-            file = {std::string(embedded.text), path};
+            file.text = embedded.text;
+            file.display = path;
             return true;
         }
     return false;
 }
 
-void Sources::append(const SourceFile& file, const std::string& path,
-                     std::vector<std::string>& stack, std::string& out) const {
-    stack.push_back(path);
+SourceFile Sources::find_included(const std::string& include, const std::string& includer,
+                                  const std::string& place,
+                                  const std::vector<std::string>& stack) const {
+    SourceFile file;
+    file.path = normal(include);
+    if (!find(file.path, file)) {
+        file.path = normal(fs::path(includer).parent_path() / include);
+        if (!find(file.path, file))
+            throw compute::Error(place + ": there is no kernel file \"" + include + "\"");
+    }
+    if (std::find(stack.begin(), stack.end(), file.path) != stack.end())
+        throw compute::Error(place + ": \"" + include + "\" includes itself");
+    return file;
+}
+
+void Sources::append(const SourceFile& file, std::vector<std::string>& stack,
+                     std::string& out) const {
+    stack.push_back(file.path);
     out += line_directive(1, file.display);
     std::size_t number = 0;
     for (std::size_t begin = 0; begin < file.text.size();) {
@@ -88,31 +104,23 @@ void Sources::append(const SourceFile& file, const std::string& path,
             (out += line) += '\n';
             continue;
         }
-        const std::string place = file.display + ":" + std::to_string(number);
-        SourceFile inner;
-        std::string inner_path = normal(include);
-        if (!find(inner_path, inner)) {
-            inner_path = normal(fs::path(path).parent_path() / include);
-            if (!find(inner_path, inner))
-                throw compute::Error(place + ": there is no kernel file \"" + include + "\"");
-        }
-        if (std::find(stack.begin(), stack.end(), inner_path) != stack.end())
-            throw compute::Error(place + ": \"" + include + "\" includes itself");
-        append(inner, inner_path, stack, out);
+        std::string place = file.display;
+        (place += ':') += std::to_string(number);
+        append(find_included(include, file.path, place, stack), stack, out);
         out += line_directive(number + 1, file.display);
     }
     stack.pop_back();
 }
 
 std::string Sources::expand(const std::string& program) const {
-    const std::string path = program + ".cl";
     SourceFile file;
-    if (!find(path, file))
-        throw compute::Error("there is no kernel program \"" + program + "\" (kernels/" + path +
-                             ")");
+    file.path = program + ".cl";
+    if (!find(file.path, file))
+        throw compute::Error("there is no kernel program \"" + program + "\" (kernels/" +
+                             file.path + ")");
     std::string out;
     std::vector<std::string> stack;
-    append(file, path, stack, out);
+    append(file, stack, out);
     return out;
 }
 

@@ -7,8 +7,9 @@
 
 namespace macula::kernel {
 
-/// Where a file's text came from.
 struct SourceFile {
+    /// Below kernels/, normalised.
+    std::string path;
     std::string text;
     /// What compiler messages call it: the path below kernels/, or an overlay's full path.
     std::string display;
@@ -29,9 +30,11 @@ class Sources {
     std::vector<std::string> programs() const;
 
   private:
+    /// Sets text and display; `path` is left alone.
     bool find(const std::string& path, SourceFile& file) const;
-    void append(const SourceFile& file, const std::string& path, std::vector<std::string>& stack,
-                std::string& out) const;
+    SourceFile find_included(const std::string& include, const std::string& includer,
+                             const std::string& place, const std::vector<std::string>& stack) const;
+    void append(const SourceFile& file, std::vector<std::string>& stack, std::string& out) const;
 
     std::filesystem::path overlay_;
 };
