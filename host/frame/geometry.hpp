@@ -102,7 +102,7 @@ class DeviceGeometry {
     // a singular transform, or when it moves an instance that was merged.
     void set_transforms(std::span<const scene::Transform> world_from_object);
 
-    // Host tables of the instances (roots of Layout::binary), for shading and tests.
+    // The instances on the host; `root` is 0, since it depends on the layout.
     std::span<const shared::Instance> instances() const;
     std::span<const MeshPart> parts() const;
     // Throws std::out_of_range beyond the last id.
@@ -111,7 +111,8 @@ class DeviceGeometry {
     // The same scene for the CPU oracle; its spans live as long as this object, and as long as no
     // set_transforms is called.
     bvh::ReferenceScene reference();
-    const GeometryStatistics& statistics() const;
+    // Gathered at the first call.
+    const GeometryStatistics& statistics();
     std::vector<LayoutStatistics> layout_statistics() const; // of the layouts on the device
 
   private:
