@@ -26,52 +26,93 @@ std::vector<glm::vec3> sphere_directions(int count) {
     return directions;
 }
 
-// Whether a scene is looked at from outside: most of what is first met from there faces outwards,
-// and it is no closed box with a room in it.
-bool is_object(const Occupancy& grid) {
+struct FreePoint {
+    glm::vec3 position;
+    bool enclosed; // surrounded by front faces, as one is inside a room
+};
+
+// Points on a lattice in the bounds that keep some distance from every surface.
+std::vector<FreePoint> free_points(const Occupancy& grid) {
+    constexpr int kSteps = 14, kDirections = 96;
+    constexpr std::array kHeights = {0.12f, 0.2f, 0.3f, 0.45f, 0.6f};
+    constexpr float kEnclosed = 0.55f; // of the directions
+    static const std::vector<glm::vec3> directions = sphere_directions(kDirections);
     const Bounds& box = grid.bounds();
-    const glm::vec3 centre = 0.5f * (box.lo + box.hi);
-    const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
-    float front = 0.0f, hits = 0.0f;
-    for (const glm::vec3& from : sphere_directions(64)) {
-        if (from.y < -0.2f) // nobody looks from below, where landscapes and bases are open
-            continue;
-        for (const glm::vec3& aside : sphere_directions(32)) {
-            const GridHit hit = grid.cast(centre + from * (2.0f * radius) + aside * (0.6f * radius),
-                                          -from, 6.0f * radius);
-            hits += hit.hit ? 1.0f : 0.0f;
-            front += !hit.hit ? 0.0f : hit.facing > 0.1f ? 1.0f : hit.facing < -0.1f ? 0.0f : 0.5f;
-        }
-    }
-    return hits == 0.0f || front > 0.6f * hits;
+    const float clearance = 2.5f * grid.cell_size();
+    std::vector<FreePoint> points;
+    for (const float height : kHeights)
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j) {
+                const glm::vec3 at((static_cast<float>(i) + 0.5f) / kSteps, height,
+                                   (static_cast<float>(j) + 0.5f) / kSteps);
+                const glm::vec3 position = box.lo + at * (box.hi - box.lo);
+                if (grid.solid(position))
+                    continue;
+                int fronts = 0;
+                bool clear = true;
+                for (const glm::vec3& direction : directions) {
+                    const GridHit hit = grid.cast(position, direction, box.diagonal());
+                    clear = clear && !(hit.hit && hit.distance < clearance);
+                    fronts += hit.hit && hit.facing > 0.1f;
+                }
+                if (clear)
+                    points.push_back(
+                        {position, static_cast<float>(fronts) > kEnclosed * kDirections});
+            }
+    return points;
 }
 
+// Whether a scene is a room or a hall, to be looked at from inside. In those a good part of the
+// free space within the bounds is enclosed; around objects, landscapes and streets it is open.
+bool is_interior(const std::vector<FreePoint>& points) {
+    const auto enclosed =
+        std::count_if(points.begin(), points.end(), [](const FreePoint& p) { return p.enclosed; });
+    return static_cast<std::size_t>(enclosed) * 4 >= points.size() && enclosed > 0;
+}
+
+// From the front, a little to the right and above, as near as the whole bounds stay in the picture.
 Camera object_camera(const Bounds& box) {
+    constexpr float kAspect = 1.2f;
     Camera camera;
     camera.name = "default";
-    const glm::vec3 extent = box.hi - box.lo;
-    const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
     camera.target = 0.5f * (box.lo + box.hi);
     camera.vertical_fov_degrees = kObjectFov;
+    const glm::vec3 half = 0.5f * (box.hi - box.lo);
     // Flat scenes (landscapes, cities) from higher up than tall ones.
-    const bool flat = extent.y < 0.5f * std::max(extent.x, extent.z);
-    const glm::vec3 from =
+    const bool flat = half.y < 0.5f * std::max(half.x, half.z);
+    const glm::vec3 back =
         glm::normalize(flat ? glm::vec3(0.75f, 0.6f, 1.0f) : glm::vec3(0.5f, 0.3f, 1.0f));
-    const float half = 0.5f * kObjectFov * std::numbers::pi_v<float> / 180.0f;
-    camera.eye = camera.target + from * (radius / std::sin(half) * (flat ? 0.75f : 0.95f));
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
+    const glm::vec3 up = glm::cross(back, right);
+    const float tangent = std::tan(0.5f * kObjectFov * std::numbers::pi_v<float> / 180.0f);
+    const float margin = flat ? 0.75f : 1.08f; // flat scenes leave their bounds' corners empty
+    float distance = 1e-6f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 offset =
+            half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float needed =
+            std::max(std::fabs(glm::dot(offset, up)), std::fabs(glm::dot(offset, right)) / kAspect);
+        distance = std::max(distance, margin * needed / tangent + glm::dot(offset, back));
+    }
+    camera.eye = camera.target + back * distance;
     return camera;
 }
 
-// How much there is to see: the mean of what the rays of a view find, more for far and varied
-// depths, less for empty space, for the backs of surfaces and for what is too near.
+// How much there is to see: the mean over the rays of a view, more for far depths, less for empty
+// space, for the backs of surfaces and for what is too near; and more for a varied picture, where
+// neighbouring rays often end at quite different depths.
 float view_score(const Occupancy& grid, const glm::vec3& eye, const glm::vec3& forward) {
     constexpr int kColumns = 12, kRows = 8;
     constexpr float kHalfHeight = 0.6f, kHalfWidth = 0.9f; // tangents
+    constexpr float kJump = 0.6f;                          // octaves
     const float diagonal = grid.bounds().diagonal();
     const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0, 1, 0)));
     const glm::vec3 up = glm::cross(right, forward);
-    float sum = 0.0f, depth_sum = 0.0f, depth_square = 0.0f;
-    for (int row = 0; row < kRows; ++row)
+    float sum = 0.0f;
+    int jumps = 0;
+    std::array<float, kColumns> above{};
+    for (int row = 0; row < kRows; ++row) {
+        float before = 0.0f;
         for (int column = 0; column < kColumns; ++column) {
             const float x = (static_cast<float>(column) + 0.5f) / kColumns * 2.0f - 1.0f;
             const float y = (static_cast<float>(row) + 0.5f) / kRows * 2.0f - 1.0f;
@@ -79,59 +120,39 @@ float view_score(const Occupancy& grid, const glm::vec3& eye, const glm::vec3& f
                 glm::normalize(forward + right * (x * kHalfWidth) + up * (y * kHalfHeight));
             const GridHit hit = grid.cast(eye, direction, diagonal);
             const float depth = std::log2(1.0f + hit.distance / (0.03f * diagonal));
-            if (!hit.hit) {
-                sum += 0.8f;
-                continue;
-            }
-            sum += hit.facing < -0.3f ? -0.5f : hit.distance < 0.04f * diagonal ? -1.0f : depth;
-            depth_sum += depth;
-            depth_square += depth * depth;
+            sum += !hit.hit                          ? 0.8f
+                   : hit.facing < -0.3f              ? -0.5f
+                   : hit.distance < 0.04f * diagonal ? -1.0f
+                                                     : depth;
+            jumps += column > 0 && std::fabs(depth - before) > kJump;
+            jumps += row > 0 && std::fabs(depth - above[static_cast<std::size_t>(column)]) > kJump;
+            before = above[static_cast<std::size_t>(column)] = depth;
         }
+    }
     constexpr float kRays = kColumns * kRows;
-    const float variance = depth_square / kRays - depth_sum * depth_sum / (kRays * kRays);
-    return sum / kRays + 0.5f * std::sqrt(std::max(0.0f, variance));
+    return sum / kRays + 3.0f * static_cast<float>(jumps) / (2.0f * kRays);
 }
 
-bool has_clearance(const Occupancy& grid, const glm::vec3& eye, float clearance) {
-    static const std::vector<glm::vec3> kDirections = sphere_directions(26);
-    if (grid.solid(eye))
-        return false;
-    return std::none_of(kDirections.begin(), kDirections.end(), [&](const glm::vec3& d) {
-        return grid.cast(eye, d, clearance).hit &&
-               grid.cast(eye, d, clearance).distance < clearance;
-    });
-}
-
-Camera interior_camera(const Occupancy& grid) {
-    constexpr int kSteps = 14, kYaws = 16;
-    constexpr std::array kHeights = {0.12f, 0.2f, 0.3f, 0.45f};
-    const Bounds& box = grid.bounds();
-    const glm::vec3 extent = box.hi - box.lo;
-    Camera best = object_camera(box);
+Camera interior_camera(const Occupancy& grid, const std::vector<FreePoint>& points) {
+    constexpr int kYaws = 16;
+    constexpr float kSlope = -0.04f; // slightly down
+    Camera best;
+    best.name = "default";
+    best.vertical_fov_degrees = kInteriorFov;
     float best_score = -1e30f;
-    for (const float height : kHeights)
-        for (int i = 0; i < kSteps; ++i)
-            for (int j = 0; j < kSteps; ++j) {
-                // From a little outside, for rooms that are open at a side.
-                const glm::vec3 at((static_cast<float>(i) + 0.5f) / kSteps * 1.4f - 0.2f, height,
-                                   (static_cast<float>(j) + 0.5f) / kSteps * 1.4f - 0.2f);
-                const glm::vec3 eye = box.lo + at * extent;
-                if (!has_clearance(grid, eye, 2.5f * grid.cell_size()))
-                    continue;
-                for (int k = 0; k < kYaws; ++k) {
-                    const float yaw =
-                        2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / kYaws;
-                    const glm::vec3 forward =
-                        glm::normalize(glm::vec3(std::cos(yaw), -0.04f, std::sin(yaw)));
-                    const float score = view_score(grid, eye, forward);
-                    if (score <= best_score)
-                        continue;
-                    best_score = score;
-                    best.eye = eye;
-                    best.target = eye + forward * (0.25f * box.diagonal());
-                    best.vertical_fov_degrees = kInteriorFov;
-                }
-            }
+    for (const FreePoint& point : points) {
+        for (int k = 0; point.enclosed && k < kYaws; ++k) {
+            const float yaw = 2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / kYaws;
+            const glm::vec3 forward =
+                glm::normalize(glm::vec3(std::cos(yaw), kSlope, std::sin(yaw)));
+            const float score = view_score(grid, point.position, forward);
+            if (score <= best_score)
+                continue;
+            best_score = score;
+            best.eye = point.position;
+            best.target = point.position + forward * (0.25f * grid.bounds().diagonal());
+        }
+    }
     return best;
 }
 
@@ -151,32 +172,29 @@ Light ceiling_light(const Occupancy& grid, const Camera& camera, float along) {
     const float roof = std::max(box.hi.y - below.y, 4.0f * grid.cell_size());
     const float height = grid.cast(below, glm::vec3(0, 1, 0), roof).distance;
     Light light;
+    light.colour = glm::vec3(0.8f);
     light.position = below + glm::vec3(0.0f, 0.75f * height, 0.0f);
     light.radius = 0.01f * box.diagonal();
     return light;
 }
 
-} // namespace
-
-Camera default_camera(const Scene& scene) {
-    const Occupancy grid(scene, kResolution);
-    return is_object(grid) ? object_camera(grid.bounds()) : interior_camera(grid);
+Camera default_camera(const Occupancy& grid) {
+    const std::vector<FreePoint> points = free_points(grid);
+    return is_interior(points) ? interior_camera(grid, points) : object_camera(grid.bounds());
 }
 
-std::vector<Light> default_lights(const Scene& scene, const Camera& camera) {
-    const Bounds box = scene.bounds();
-    const bool narrow = camera.vertical_fov_degrees < kInteriorFov;
-    if (!contains(box, camera.eye) && narrow) {
-        const float distance = glm::distance(camera.eye, camera.target);
-        const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+std::vector<Light> default_lights(const Occupancy& grid, const Camera& camera) {
+    const Bounds& box = grid.bounds();
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    if (!contains(box, camera.eye)) {
+        const float distance = glm::distance(camera.eye, 0.5f * (box.lo + box.hi));
         const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
         Light key;
-        key.position = camera.eye + (0.8f * camera.up - 0.6f * right) * distance;
+        key.colour = glm::vec3(0.9f);
+        key.position = camera.eye + (0.8f * glm::cross(right, forward) - 0.6f * right) * distance;
         key.radius = 0.1f * std::max(box.diagonal(), 1e-6f);
         return {key};
     }
-    const Occupancy grid(scene, kResolution);
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
     const float free = grid.cast(camera.eye, forward, box.diagonal()).distance;
     Light key = ceiling_light(grid, camera, 0.25f * free);
     const float height = key.position.y - camera.eye.y;
@@ -184,8 +202,37 @@ std::vector<Light> default_lights(const Scene& scene, const Camera& camera) {
         return {ceiling_light(grid, camera, 0.45f * free)};
     // A long hall: one light would leave its far end dark.
     Light second = ceiling_light(grid, camera, 0.7f * free);
-    key.colour = second.colour = glm::vec3(0.65f);
+    key.colour = second.colour = glm::vec3(0.5f);
     return {key, second};
+}
+
+// Files give emission without an exposure. Lamps that would leave the scene dark, at a quarter of
+// its diagonal, are made brighter; their colours and ratios stay.
+void brighten(std::vector<Light>& lights, const Bounds& box) {
+    constexpr float kLeast = 0.6f; // irradiance, in units that a white surface reflects as 1
+    const float reach = std::max(0.25f * box.diagonal(), 1e-6f);
+    float total = 0.0f;
+    for (const Light& light : lights)
+        total += std::max({light.colour.r, light.colour.g, light.colour.b}) / (reach * reach);
+    for (Light& light : lights)
+        if (total > 0.0f && total < kLeast)
+            light.colour *= kLeast / total;
+}
+
+} // namespace
+
+void add_default_view(Scene& scene) {
+    if (scene.lights.empty()) {
+        scene.lights = lights_of_emissive_quads(scene);
+        brighten(scene.lights, scene.bounds());
+    }
+    if (!scene.lights.empty() && !scene.cameras.empty())
+        return;
+    const Occupancy grid(scene, kResolution);
+    if (scene.cameras.empty())
+        scene.cameras.push_back(default_camera(grid));
+    if (scene.lights.empty())
+        scene.lights = default_lights(grid, scene.cameras.front());
 }
 
 } // namespace macula::scene

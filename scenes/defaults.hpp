@@ -10,12 +10,10 @@ namespace macula::scene {
 inline constexpr std::size_t kMaxEmissiveLights = 16;
 std::vector<Light> lights_of_emissive_quads(const Scene& scene);
 
-// A camera that shows the scene: from outside and above for objects, from inside along the longest
-// free view for halls, rooms and landscapes. `scene` has at least one triangle.
-Camera default_camera(const Scene& scene);
-
-// A key light above the side of `camera`, or, where the camera stands inside, under the ceiling of
-// the free space around it.
-std::vector<Light> default_lights(const Scene& scene, const Camera& camera);
+// Adds a camera and lights where there are none. The camera shows the scene from outside and above
+// for objects and landscapes, from inside along a long and varied view for halls and rooms. The
+// lights are those of emissive quads, or a key light above the camera's side, or, where the camera
+// stands inside, one or two under the ceiling. `scene` has at least one triangle.
+void add_default_view(Scene& scene);
 
 } // namespace macula::scene

@@ -120,7 +120,9 @@ Image decode_image(std::span<const unsigned char> bytes, const std::string& name
     if (!png && !jpeg)
         throw SceneError(name + ": embedded images must be PNG or JPEG");
     OIIO::Filesystem::IOMemReader memory(const_cast<unsigned char*>(bytes.data()), bytes.size());
-    const OIIO::ImageSpec options = read_options();
+    OIIO::ImageSpec options = read_options();
+    void* proxy = &memory; // an argument of open() is lost where there are options
+    options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const std::unique_ptr<OIIO::ImageInput> input =
         OIIO::ImageInput::open(png ? "embedded.png" : "embedded.jpg", &options, &memory);
     if (!input)

@@ -195,12 +195,7 @@ void validate(Scene& scene) {
     bound(scene.ambient_occlusion_radius, 0.0f, kMaxCoordinate, 0.0f);
     validate_lights(scene);
     validate_cameras(scene);
-    if (scene.lights.empty())
-        scene.lights = lights_of_emissive_quads(scene);
-    if (scene.cameras.empty())
-        scene.cameras.push_back(default_camera(scene));
-    if (scene.lights.empty())
-        scene.lights = default_lights(scene, scene.cameras.front());
+    add_default_view(scene);
 }
 
 } // namespace macula::scene
