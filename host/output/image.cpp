@@ -57,8 +57,8 @@ OIIO::ImageSpec exr_spec(std::uint32_t width, std::uint32_t height, std::span<co
     for (const Layer& layer : layers) {
         for (const std::string& channel : layer.channels) {
             spec.channelnames.push_back(channel);
-            spec.channelformats.emplace_back(layer.half ? OIIO::TypeDesc::HALF
-                                                        : OIIO::TypeDesc::FLOAT);
+            spec.channelformats.emplace_back(layer.integer ? OIIO::TypeDesc::UINT
+                                                           : OIIO::TypeDesc::FLOAT);
         }
     }
     spec.nchannels = static_cast<int>(spec.channelnames.size());
@@ -80,31 +80,36 @@ void write_exr(const fs::path& path, std::uint32_t width, std::uint32_t height,
     add_metadata(spec, metadata);
     const std::size_t pixels = std::size_t{width} * height;
     const auto total = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> all(pixels * total);
+    // All channels have 32 bits, so the words go to the file as they are.
+    std::vector<std::uint32_t> all(pixels * total);
     std::size_t first = 0;
     for (const Layer& layer : layers) {
         const std::size_t count = layer.channels.size();
-        if (layer.pixels.size() != pixels * count)
+        if (layer.words.size() != pixels * layer.stride || count > layer.stride)
             fail(path, fmt::format("layer '{}' has {} values, {} x {} x {} expected",
                                    layer.channels.empty() ? "" : layer.channels.front(),
-                                   layer.pixels.size(), width, height, count));
+                                   layer.words.size(), width, height, layer.stride));
         for (std::size_t i = 0; i < pixels; ++i)
-            std::copy_n(&layer.pixels[i * count], count, &all[i * total + first]);
+            std::copy_n(&layer.words[i * layer.stride], count, &all[i * total + first]);
         first += count;
     }
-    // Per-channel formats are converted by OpenImageIO when all pixels come as floats.
     write_whole(path, [&](const fs::path& partial) {
-        write_image(partial, path, spec, OIIO::TypeDesc::FLOAT, all.data());
+        write_image(partial, path, spec, OIIO::TypeDesc::UNKNOWN, all.data());
     });
 }
 
 void write_png(const fs::path& path, std::uint32_t width, std::uint32_t height,
-               std::span<const float> rgb, float exposure, const Metadata& metadata) {
-    if (rgb.size() != std::size_t{width} * height * 3)
-        fail(path, fmt::format("{} values, {} x {} x 3 expected", rgb.size(), width, height));
-    std::vector<std::uint8_t> bytes(rgb.size());
-    std::transform(rgb.begin(), rgb.end(), bytes.begin(),
-                   [exposure](float value) { return encode_srgb(value * exposure); });
+               std::span<const float> pixels, std::uint32_t stride, float exposure,
+               const Metadata& metadata) {
+    const std::size_t count = std::size_t{width} * height;
+    if (stride < 3 || pixels.size() != count * stride)
+        fail(path,
+             fmt::format("{} values, {} x {} x {} expected", pixels.size(), width, height, stride));
+    std::vector<std::uint8_t> bytes(count * 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            bytes[i * 3 + channel] = encode_srgb(pixels[i * stride + channel] * exposure);
+    }
     OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3,
                          OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
