@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/kernel/variants.hpp"
 
@@ -27,9 +28,11 @@ namespace macula::stage {
 using VariantTable = std::array<kernel::Choice, kernel::kRayClasses.size()>;
 
 // The registry's defaults, overridden by the tuning file of the user's cache directory, overridden
-// by `forced` (the name given by --variant; empty: none). Throws std::invalid_argument when
-// `forced` is unknown or cannot run on the device.
-VariantTable choose_variants(const compute::Device& device, std::string_view forced = {});
+// by `forced` (the name given by --variant; empty: none), which also runs where the registry says
+// that it does not apply. What is wrong with the tuning file goes to `warnings`, unless null.
+// Throws std::invalid_argument when `forced` is unknown.
+VariantTable choose_variants(const compute::Device& device, std::string_view forced = {},
+                             std::vector<std::string>* warnings = nullptr);
 
 class Tracer {
   public:
