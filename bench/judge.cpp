@@ -48,8 +48,12 @@ struct Judge::Meeting {
     double t_slack = 0.0;  // what that may move t by
     double b_slack = 0.0;  // and the barycentric weights
     bool parallel = false; // no t: the ray lies along the plane
-    bool inside() const { return b[0] >= 0.0 && b[1] >= 0.0 && b[2] >= 0.0; }
     bool grazes() const { return edge <= slack; }
+    // The ray does hit the triangle, at this t.
+    bool confirms(double hit_t) const {
+        const bool inside = b[0] >= 0.0 && b[1] >= 0.0 && b[2] >= 0.0;
+        return !parallel && (inside || grazes()) && close(t, hit_t, t_slack);
+    }
 };
 
 Judge::Judge(const scene::Scene& scene) : scene_(scene), masks_(scene) {}
@@ -124,17 +128,19 @@ Verdict Judge::closest(const TestRay& ray, const TestHit& ours, const TestHit& t
     }
     if (both) {
         const Meeting a = meet(ray, *ours.surface), b = meet(ray, *theirs.surface);
-        const bool met =
-            !a.parallel && !b.parallel && (a.inside() || a.grazes()) && (b.inside() || b.grazes());
-        if (met && close(ours.t, theirs.t, 0.0) && close(a.t, b.t, a.t_slack + b.t_slack))
-            return Verdict::tie;
-        if (met && close(ours.t, theirs.t, a.t_slack + b.t_slack))
-            return Verdict::rounding;
+        if (a.confirms(ours.t) && b.confirms(theirs.t)) {
+            if (close(ours.t, theirs.t, 0.0))
+                return Verdict::tie;
+            if (close(ours.t, theirs.t, a.t_slack + b.t_slack))
+                return Verdict::rounding;
+        }
     }
     // One of the two found a triangle that the other passed by.
     const bool ours_disputed = ours.surface && (!both || ours.t < theirs.t);
     const Surface& disputed = ours_disputed ? *ours.surface : *theirs.surface;
     const Meeting m = meet(ray, disputed);
+    if (!m.parallel && !close(m.t, ours_disputed ? ours.t : theirs.t, m.t_slack))
+        return Verdict::mismatch;
     const bool at_an_end = std::abs(m.t - ray.t_min) <= m.t_slack ||
                            std::abs(m.t - ray.t_max) <= m.t_slack + kRounding * ray.t_max;
     if (m.parallel || m.grazes() || at_an_end || near_texel_border(disputed, m))
