@@ -92,7 +92,7 @@ struct Renderer::State {
           lights(frame::make_lights(scene, o.lights, o.light_samples)),
           settings(settings_of(scene, o, lights.size())), geometry(device, scene, o.geometry),
           surfaces(device, scene, geometry.parts()),
-          tracer(device, geometry, stage::choose_variants(device, o.variant)),
+          tracer(device, library, geometry, stage::choose_variants(device, o.variant)),
           graph(method::find_method(o.method).make(
               {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
                settings.ambient_occlusion_samples, has_highlights(scene), ray_totals},
@@ -117,6 +117,10 @@ struct Renderer::State {
     frame::Timings timings;
     std::optional<shared::Camera> last_camera;
     std::array<std::uint64_t, kernel::kRayClasses.size()> last_rays{};
+    std::vector<scene::Transform> transforms;
+    // Frames for which the transforms must still be set: the one in which something moved, and the
+    // one after it, whose last frame's transforms are then its own.
+    int frames_to_place = 0;
 };
 
 Renderer::Renderer(const compute::Device& device, const scene::Scene& scene, const Options& options)
@@ -135,6 +139,10 @@ FrameReport Renderer::render(std::uint32_t frame, const scene::Camera& view) {
         frame::tangents_of(view.vertical_fov_degrees, s.options.width, s.options.height));
     const shared::Camera camera = frame::make_camera(view, tangents);
     const shared::FrameParams params = frame::make_params(s.settings, frame, camera, s.last_camera);
+    if (s.frames_to_place > 0) {
+        s.geometry.set_transforms(s.transforms);
+        --s.frames_to_place;
+    }
     s.last_camera = camera;
 
     s.device.finish();
@@ -185,7 +193,8 @@ std::string Renderer::hash() const {
 }
 
 void Renderer::set_transforms(std::span<const scene::Transform> world_from_object) {
-    state_->geometry.set_transforms(world_from_object);
+    state_->transforms.assign(world_from_object.begin(), world_from_object.end());
+    state_->frames_to_place = 2;
 }
 
 void Renderer::reset() {

@@ -92,7 +92,8 @@ class Renderer {
     // 16 hexadecimal digits: XXH3 (64 bits) of the colour's bits.
     std::string hash() const;
 
-    // Places the scene's instances anew for the next frame (frame::DeviceGeometry).
+    // Places the scene's instances anew for the next frame: one transform each. That frame's
+    // render() throws std::invalid_argument as frame::DeviceGeometry::set_transforms does.
     void set_transforms(std::span<const scene::Transform> world_from_object);
     // Forgets the last frame: its camera and the method's history.
     void reset();

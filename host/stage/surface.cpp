@@ -27,7 +27,7 @@ frame::Stage resolve_surface(const Kit& kit) {
             const frame::DeviceSurfaces& scene = kit.surfaces;
             kernel
                 .set(run.params_buffer(), run["primary rays"], run["ray count"], run["hits"],
-                     *kit.geometry.layout(layout).instances,
+                     kit.geometry.layout(layout).instances,
                      static_cast<std::uint32_t>(kit.geometry.instances().size()), scene.triangles,
                      scene.vertices, scene.materials, scene.textures, scene.levels, scene.texels,
                      scene.decode, run["surface depth"], run["surface position"],
