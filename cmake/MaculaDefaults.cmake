@@ -20,3 +20,15 @@ if(MACULA_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${MACULA_CCACHE})
 endif()
 find_package(Threads REQUIRED)
+
+# The commit that figures and pictures name.
+find_package(Git QUIET)
+set(MACULA_COMMIT "unknown")
+if(Git_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty --tags
+                  WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE commit
+                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(NOT failed)
+    set(MACULA_COMMIT "${commit}")
+  endif()
+endif()

@@ -1,0 +1,83 @@
+/// `macula demo`: the pictures of ./demo and a small table of what they took.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "host/app/command.hpp"
+#include "host/app/frame_files.hpp"
+#include "scenes/load.hpp"
+
+namespace {
+
+using namespace macula;
+
+struct Options {
+    std::string device;
+    std::filesystem::path out = "demo";
+};
+
+struct Picture {
+    const char* scene;
+    frame::LightMode lights;
+    std::uint32_t width, height, frame, samples_per_pixel;
+};
+
+constexpr Picture kPictures[] = {
+    {"atrium", frame::LightMode::ambient_occlusion, 960, 600, 0, 1},
+    {"atrium", frame::LightMode::area, 960, 600, 200, 4},
+    {"whitted", frame::LightMode::point, 640, 480, 0, 4},
+    {"cornell", frame::LightMode::area, 512, 512, 0, 4},
+};
+
+void print_row(const Picture& picture, const render::Renderer& renderer,
+               const render::FrameReport& report) {
+    const auto& geometry = renderer.geometry();
+    double device_ms = 0.0;
+    for (const frame::StageTime& stage : report.stages)
+        device_ms += stage.device_ms;
+    fmt::print("{:<10} {:<6} {:>5}x{:<5} {:>10} {:>8.2f} s {:>11} {:>9.1f} {:>8.1f} ms\n",
+               picture.scene, frame::name(picture.lights), picture.width, picture.height,
+               geometry.triangles, geometry.build_seconds, report.total_rays(),
+               static_cast<double>(report.total_rays()) / (1e3 * device_ms), device_ms);
+    for (const frame::StageTime& stage : report.stages)
+        fmt::print("    {:<40} {:>9.2f} ms\n", stage.stage, stage.device_ms);
+}
+
+int run(const Options& options) {
+    const compute::Device device = compute::open(options.device);
+    fmt::print("device: {} ({})\n", device.facts().name, device.facts().driver_version);
+    fmt::print("{:<10} {:<6} {:>11} {:>10} {:>10} {:>11} {:>9} {:>11}\n", "scene", "lights", "size",
+               "triangles", "BVH", "rays", "Mrays/s", "frame");
+    for (const Picture& picture : kPictures) {
+        render::Options engine;
+        engine.width = picture.width;
+        engine.height = picture.height;
+        engine.lights = picture.lights;
+        engine.samples_per_pixel = picture.samples_per_pixel;
+        const scene::Scene scene = scene::load(picture.scene);
+        render::Renderer renderer(device, scene, engine);
+        renderer.render(picture.frame); // warms up: the first launch of a kernel builds it
+        const render::FrameReport report = renderer.render(picture.frame);
+        const auto folder = options.out / fmt::format("{}-{}", picture.scene, name(picture.lights));
+        const app::FrameFiles files(folder, {"exr", "png"}, {}, 1.0f, {{"scene", picture.scene}});
+        files.write(renderer, picture.frame);
+        print_row(picture, renderer, report);
+    }
+    fmt::print("pictures: {}\n", std::filesystem::absolute(options.out).string());
+    return 0;
+}
+
+app::Run add(CLI::App& command) {
+    auto options = std::make_shared<Options>();
+    app::add_device_option(command, options->device);
+    command.add_option("--out", options->out, "Folder for the pictures")->capture_default_str();
+    return [options] { return run(*options); };
+}
+
+const app::Command command("demo", "Render the demo pictures and print what they took", add);
+
+} // namespace

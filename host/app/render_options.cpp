@@ -1,0 +1,165 @@
+#include "host/app/render_options.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+#include "host/app/aov.hpp"
+#include "host/app/command.hpp"
+#include "scenes/display.hpp"
+#include "scenes/load.hpp"
+
+namespace macula::app {
+namespace {
+
+[[noreturn]] void refuse(const char* option, const std::string& value, const char* expected) {
+    throw std::invalid_argument(fmt::format("{} \"{}\": {}", option, value, expected));
+}
+
+// "x,y,z:x,y,z[:fov]" or the name or index of one of the scene's cameras.
+scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {
+    scene::Camera camera = scene.cameras.front();
+    float* e = &camera.eye.x;
+    float* t = &camera.target.x;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%f,%f,%f:%f,%f,%f%n", e, e + 1, e + 2, t, t + 1, t + 2, &end) ==
+        6) {
+        const char* rest = text.c_str() + end;
+        int used = 0;
+        if (*rest == '\0')
+            return camera;
+        if (std::sscanf(rest, ":%f%n", &camera.vertical_fov_degrees, &used) == 1 &&
+            rest[used] == '\0')
+            return camera;
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (text == scene.cameras[i].name || text == std::to_string(i))
+            return scene.cameras[i];
+    }
+    refuse("--camera", text,
+           "neither EYE:TARGET[:FOV] as x,y,z:x,y,z:degrees nor one of the scene's cameras");
+}
+
+void choose_path(scene::Scene& scene, const RenderOptions& options) {
+    if (options.path == "still") {
+        scene.path = {};
+    } else if (options.path != "scene") {
+        scene::LoadOptions geometry_only;
+        geometry_only.textures = false;
+        scene.path = scene::load(options.path, geometry_only).path;
+        if (scene.path.keys.empty())
+            refuse("--path", options.path, "this scene file has no camera path");
+    }
+}
+
+void set_size(render::Options& engine, const RenderOptions& options) {
+    if (!options.display.empty()) {
+        const scene::Display display = scene::find_display(options.display);
+        engine.width = display.width;
+        engine.height = display.height;
+        engine.tangents =
+            frame::Tangents{display.tan_left, display.tan_right, display.tan_up, display.tan_down};
+    }
+    if (options.size.empty())
+        return;
+    unsigned width = 0, height = 0;
+    int end = 0;
+    if (std::sscanf(options.size.c_str(), "%ux%u%n", &width, &height, &end) != 2 ||
+        options.size[static_cast<std::size_t>(end)] != '\0')
+        refuse("--size", options.size, "WIDTHxHEIGHT in pixels was expected");
+    engine.width = width;
+    engine.height = height;
+}
+
+} // namespace
+
+FrameRange parse_frames(const std::string& text) {
+    if (text.empty())
+        return {};
+    unsigned first = 0, end = 0;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%u:%u%n", &first, &end, &used) == 2 &&
+        text[static_cast<std::size_t>(used)] == '\0' && first < end)
+        return {first, end};
+    if (std::sscanf(text.c_str(), "%u%n", &first, &used) == 1 &&
+        text[static_cast<std::size_t>(used)] == '\0' && first != ~0u)
+        return {first, first + 1};
+    refuse("--frames", text, "A:B (frames A to B - 1, A < B) or one frame was expected");
+}
+
+scene::Scene load_scene(const RenderOptions& options) {
+    scene::LoadOptions load;
+    load.seed = options.scene_seed;
+    load.size = options.scene_size;
+    for (const std::string& folder : options.scene_path)
+        load.search_path.emplace_back(folder);
+    scene::Scene scene = scene::load(options.scene, load);
+    choose_path(scene, options);
+    if (!options.camera.empty()) {
+        scene.cameras = {parse_camera(options.camera, scene)};
+        scene.path = {};
+    }
+    return scene;
+}
+
+render::Options engine_options(const RenderOptions& options) {
+    render::Options engine;
+    const auto lights = frame::parse_light_mode(options.lights);
+    if (!lights)
+        refuse("--lights", options.lights, "point, area or ao was expected");
+    engine.lights = *lights;
+    engine.method = options.method;
+    engine.light_samples = options.light_samples;
+    engine.ambient_occlusion_samples = options.ambient_occlusion_samples;
+    engine.ambient_occlusion_radius = options.ambient_occlusion_radius;
+    engine.samples_per_pixel = options.samples_per_pixel;
+    engine.seed = options.seed;
+    engine.variant = options.variant;
+    for (const std::string& aov : options.aovs)
+        engine.images.push_back(find_aov(aov).image);
+    set_size(engine, options);
+    return engine;
+}
+
+void RenderOptions::add_to(CLI::App& command) {
+    command.add_option("scene", scene,
+                       "Built-in scene or file (.obj .gltf .glb .toml, also .gz or .zst)");
+    add_device_option(command, device);
+    command.add_option("--method", method, "How frames are made")->capture_default_str();
+    command.add_option("--spp", samples_per_pixel, "Samples per pixel")->capture_default_str();
+    command.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 640x480)");
+    command.add_option("--display", display, "Size and field of view of a display, e.g. dk2");
+    command.add_option("--camera", camera, "EYE:TARGET[:FOV] as x,y,z:x,y,z:degrees, or a name");
+    command.add_option("--path", path, "scene, still, or a scene file whose camera path to fly")
+        ->capture_default_str();
+    command.add_option("--frames", frames, "A:B, frames A to B - 1 of the path (default 0:1)");
+    command.add_option("--lights", lights, "point, area or ao")->capture_default_str();
+    command.add_option("--light-samples", light_samples, "Rays for each area light")
+        ->capture_default_str();
+    command.add_option("--ao-samples", ambient_occlusion_samples, "Rays of ambient occlusion")
+        ->capture_default_str();
+    command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
+        ->capture_default_str();
+    command.add_option("--seed", seed, "Of all random numbers")->capture_default_str();
+    command.add_option("--scene-seed", scene_seed, "Of a built-in scene")->capture_default_str();
+    command.add_option("--scene-size", scene_size, "Of voxel_city: blocks; 0: its default")
+        ->capture_default_str();
+    command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
+    command.add_option("--variant", variant, "Traversal variant for all rays");
+    command.add_option("--out", out, "Folder for the frames")->capture_default_str();
+    command.add_option("--format", formats, "exr, png or both")->delimiter(',');
+    command.add_option("--exposure", exposure, "Scale of the PNG's radiance")
+        ->capture_default_str();
+    command.add_option("--aov", aovs, "Further EXR channels, see --list-aovs")->delimiter(',');
+    command.add_flag("--json", json, "One JSON line a frame");
+    command.add_flag("--hash", hash, "Print `hash <hex>` of each frame's bits");
+    command.add_flag("--resume", resume, "Skip frames whose files exist");
+    command.add_flag("--list-variants", list_variants, "Why a traversal variant does not apply");
+    command.add_flag("--list-aovs", list_aovs, "What --aov can name");
+}
+
+} // namespace macula::app

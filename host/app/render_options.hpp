@@ -1,0 +1,48 @@
+/// The options of `macula render`, as the user gave them and as the engine takes them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/render/renderer.hpp"
+#include "scenes/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace macula::app {
+
+struct RenderOptions {
+    std::string scene, device, method = "full", size, display, camera, path = "scene", frames,
+                               lights = "point", variant;
+    std::uint32_t samples_per_pixel = 1, light_samples = 8, ambient_occlusion_samples = 16,
+                  seed = 0;
+    std::uint32_t scene_size = 0;
+    std::uint64_t scene_seed = 1;
+    float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
+    std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
+    std::filesystem::path out = ".";
+    bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;
+
+    void add_to(CLI::App& command);
+};
+
+/// Frames [first, end).
+struct FrameRange {
+    std::uint32_t first = 0, end = 1;
+};
+
+/// "A:B" (frames A to B - 1) or "A"; empty: frame 0. Throws std::invalid_argument.
+FrameRange parse_frames(const std::string& text);
+
+/// The scene with the camera and path that the options ask for. Throws what scene::load throws,
+/// and std::invalid_argument for an unknown camera or path.
+scene::Scene load_scene(const RenderOptions& options);
+
+/// Throws std::invalid_argument that names the option.
+render::Options engine_options(const RenderOptions& options);
+
+} // namespace macula::app
