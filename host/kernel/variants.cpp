@@ -13,6 +13,18 @@ constexpr Parameter work_group(std::uint32_t standard) {
 }
 
 constexpr std::array kOneRay = {work_group(64)};
+constexpr std::array kOnePacket = {work_group(16)};
+constexpr std::array kPacketStream = {
+    work_group(1),
+    Parameter{"rays_per_item", 32, 512, 256, true, ParameterUse::literal,
+              "rays that a work-item takes through the tree together"},
+};
+constexpr std::array kStream = {
+    work_group(1),
+    Parameter{"rays_per_item", 64, 8192, 1024, true, ParameterUse::literal,
+              "rays that a work-item sorts"},
+    Parameter{"chunk", 4, 32, 32, true, ParameterUse::literal, "rays that share a traversal"},
+};
 constexpr std::array kPersistent = {
     work_group(32),
     Parameter{"groups_per_unit", 1, 256, 32, false, ParameterUse::launch,
@@ -26,8 +38,53 @@ constexpr std::uint32_t kBinaryStack = 2 * (MACULA_MAX_DEPTH + 1) * 4; // and th
 constexpr std::uint32_t kWide8Stack = (7 * MACULA_MAX_DEPTH + 8) * 8 + kBinaryStack / 2;
 constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 2;
 
+// A packet's rays and results, in bytes: about 27 vectors of 64.
+constexpr std::uint32_t kPacket = 27 * 64;
+constexpr std::uint32_t kStreamRay = 176;
+
+constexpr RayClassSet bit(RayClass ray_class) {
+    return 1u << static_cast<unsigned>(ray_class);
+}
+
 // In order of preference; the reference is the last.
 constexpr Variant kVariants[] = {
+    {
+        .name = "packet_stream",
+        .paper = "Wald, Boulos and Shirley 2007, section 4; Tsakok 2009",
+        .layout = bvh::Layout::wide8_single,
+        .rays_per_item = 256,
+        .launch = Launch::one_pass,
+        .parameters = kPacketStream,
+        .unsafe = kNone,
+        .preferred_on_cpu = bit(RayClass::primary),
+        .preferred_on_gpu = kNone,
+        .private_bytes = 16 * kPacket + kWide8Stack,
+    },
+    {
+        .name = "packet16",
+        .paper = "Wald, Boulos and Shirley 2007, section 4",
+        .layout = bvh::Layout::wide8_single,
+        .rays_per_item = 16,
+        .launch = Launch::one_pass,
+        .parameters = kOnePacket,
+        .unsafe = kNone,
+        .preferred_on_cpu = bit(RayClass::shadow) | bit(RayClass::sparse),
+        .preferred_on_gpu = kNone,
+        .private_bytes = kPacket + kWide8Stack,
+    },
+    {
+        .name = "stream",
+        .paper = "Tsakok 2009, section 3",
+        .layout = bvh::Layout::wide8_block,
+        .rays_per_item = 1024,
+        .launch = Launch::one_pass,
+        .parameters = kStream,
+        .unsafe = kNone,
+        .preferred_on_cpu =
+            bit(RayClass::ambient_occlusion) | bit(RayClass::diffuse) | bit(RayClass::random),
+        .preferred_on_gpu = kNone,
+        .private_bytes = 1024 * 3 + 32 * kStreamRay + kWide8Stack,
+    },
     {
         .name = "wide8_quantized",
         .paper = "Ylitie, Karras and Laine 2017, sections 3 and 4",

@@ -1,0 +1,151 @@
+/* Sixteen rays against one triangle: intersect_triangle of lib/triangle.h lane by lane, and the
+ * acceptance of hits as in lib/traverse_query.h. OpenCL C only. */
+#ifndef MACULA_LIB_PACKET_TRIANGLE_H
+#define MACULA_LIB_PACKET_TRIANGLE_H
+
+#include "lib/packet.h"
+#include "lib/traverse_query.h"
+
+typedef struct PacketHit {
+    float16 t, u, v;
+    uint16 triangle;
+} PacketHit;
+
+/* The instance being traversed. */
+typedef struct PacketInstance {
+    float16 near; /* InstanceSpan.near of the lanes */
+    uint first_triangle;
+    uint mesh_triangle;
+} PacketInstance;
+
+static inline float16 snap_tiny16(float16 x) {
+    return fabs(x) < 0x1p-40f ? (float16)(0.0f) : x;
+}
+
+static inline float16 difference_of_products16(float16 a, float16 b, float16 c, float16 d) {
+    const float16 cd = c * d;
+    return fma(a, b, -cd) + fma(-c, d, cd);
+}
+
+/* What the edge test leaves for the rest of the test. */
+typedef struct PacketEdges {
+    float16 wa, wb, wc;
+    float16 az, bz, cz; /* of the vertices from the origin, along the dominant axis */
+} PacketEdges;
+
+/* The lanes with dominant axis kz whose line crosses the triangle. (An edge function that is not 0
+ * makes the determinant not 0, since all have the same sign.) */
+static inline int16 cross_edges(const Packet *p, global const Triangle *tri, uint kz,
+                                PacketEdges *e) {
+    const uint kx = kz == 2u ? 0u : kz + 1u, ky = kx == 2u ? 0u : kx + 1u;
+    const float16 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
+    e->az = (float16)(tri->v0[kz]) - oz;
+    e->bz = (float16)(tri->v1[kz]) - oz;
+    e->cz = (float16)(tri->v2[kz]) - oz;
+    const float16 ax = snap_tiny16(fma(-p->sx, e->az, (float16)(tri->v0[kx]) - ox));
+    const float16 ay = snap_tiny16(fma(-p->sy, e->az, (float16)(tri->v0[ky]) - oy));
+    const float16 bx = snap_tiny16(fma(-p->sx, e->bz, (float16)(tri->v1[kx]) - ox));
+    const float16 by = snap_tiny16(fma(-p->sy, e->bz, (float16)(tri->v1[ky]) - oy));
+    const float16 cx = snap_tiny16(fma(-p->sx, e->cz, (float16)(tri->v2[kx]) - ox));
+    const float16 cy = snap_tiny16(fma(-p->sy, e->cz, (float16)(tri->v2[ky]) - oy));
+    e->wa = difference_of_products16(cx, by, cy, bx);
+    e->wb = difference_of_products16(ax, cy, ay, cx);
+    e->wc = difference_of_products16(bx, ay, by, ax);
+    const float16 least = m_min16(m_min16(e->wa, e->wb), e->wc);
+    const float16 greatest = m_max16(m_max16(e->wa, e->wb), e->wc);
+    return (least < 0.0f) ^ (greatest > 0.0f);
+}
+
+/* Of the lanes `hit`, those whose t passes the interval and the triangle's own box. */
+static inline int16 clamp_to_triangle(const Packet *p, global const Triangle *tri, int16 hit,
+                                      float16 *t) {
+    const float lo_x = m_min(m_min(tri->v0[0], tri->v1[0]), tri->v2[0]);
+    const float lo_y = m_min(m_min(tri->v0[1], tri->v1[1]), tri->v2[1]);
+    const float lo_z = m_min(m_min(tri->v0[2], tri->v1[2]), tri->v2[2]);
+    const float hi_x = m_max(m_max(tri->v0[0], tri->v1[0]), tri->v2[0]);
+    const float hi_y = m_max(m_max(tri->v0[1], tri->v1[1]), tri->v2[1]);
+    const float hi_z = m_max(m_max(tri->v0[2], tri->v1[2]), tri->v2[2]);
+    const float margin = triangle_margin(lo_x, lo_y, lo_z, hi_x, hi_y, hi_z);
+    float16 near, far;
+    box_interval16(p, lo_x - margin, lo_y - margin, lo_z - margin, hi_x + margin, hi_y + margin,
+                   hi_z + margin, &near, &far);
+    hit &= (*t >= p->t_min) & (near <= far);
+    *t = m_min16(m_max16(*t, near), far);
+    return hit & (*t <= p->t_max);
+}
+
+#if MACULA_MASKS
+/* Drops the lanes whose texel is not solid. */
+static inline int16 keep_solid(const TraceScene *scene, uint slot, int16 hit, float16 u,
+                               float16 v) {
+    int16 solid = 0;
+    for (uint i = 0u; i < 16u; ++i)
+        if (((const int *)&hit)[i] != 0 &&
+            mask_is_solid(&scene->masks, slot, ((const float *)&u)[i], ((const float *)&v)[i]))
+            ((int *)&solid)[i] = -1;
+    return solid;
+}
+#endif
+
+/* Finishes the test of the lanes that cross a triangle's edges and takes their hits; true when the
+ * packet's bounds have changed. */
+static inline bool finish_triangle(const TraceScene *scene, const PacketInstance *instance,
+                                   Packet *p, PacketHit *best, global const Triangle *tri,
+                                   const PacketEdges *e, int16 hit) {
+    const float16 inverse = m_divide16(1.0f, hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
+    const float16 scaled_t =
+        fma(e->wa, p->sz * e->az, fma(e->wb, p->sz * e->bz, e->wc * (p->sz * e->cz)));
+    float16 t = scaled_t * inverse;
+    hit = clamp_to_triangle(p, tri, hit, &t);
+    const uint id = tri->id & MACULA_ID_MASK;
+    const uint16 triangle = instance->first_triangle + id;
+#if MACULA_INSTANCES
+    t = m_max16(t, instance->near);
+    hit &= t <= p->t_max;
+#endif
+#if !MACULA_ANY_HIT
+    hit &= (t < best->t) | ((t == best->t) & (triangle < best->triangle));
+#endif
+    const float16 u = e->wb * inverse, v = e->wc * inverse;
+#if MACULA_MASKS
+    if ((tri->id & MACULA_MASKED_BIT) != 0u && any_lane16(hit))
+        hit = keep_solid(scene, instance->mesh_triangle + id, hit, u, v);
+#endif
+    if (!any_lane16(hit))
+        return false;
+    best->triangle = hit ? triangle : best->triangle;
+#if MACULA_ANY_HIT
+    p->t_max = hit ? (float16)(-1.0f) : p->t_max;
+#else
+    best->t = hit ? t : best->t;
+    best->u = hit ? u : best->u;
+    best->v = hit ? v : best->v;
+    p->t_max = hit ? t : p->t_max;
+#endif
+    return true;
+}
+
+/* Tests the Triangles of a leaf; true when the packet's bounds have changed. */
+static inline bool test_leaf16(const TraceScene *scene, const PacketInstance *instance, Packet *p,
+                               PacketHit *best, int leaf) {
+    const uint bits = (uint)~leaf;
+    global const Triangle *tri =
+        (global const Triangle *)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
+    global const Triangle *end = tri + (bits & MACULA_LEAF_MAX);
+    bool changed = false;
+    for (; tri != end; ++tri) {
+        /* Nearly always one turn: neighbouring rays have the same dominant axis. */
+        for (uint axes = p->axes; axes != 0u; axes &= axes - 1u) {
+            const uint kz = axes & 1u ? 0u : (axes & 2u ? 1u : 2u);
+            PacketEdges edges;
+            int16 hit = cross_edges(p, tri, kz, &edges) & (p->t_max >= 0.0f);
+            if ((p->axes & (p->axes - 1u)) != 0u)
+                hit &= p->kz == (int16)((int)kz);
+            if (any_lane16(hit))
+                changed |= finish_triangle(scene, instance, p, best, tri, &edges, hit);
+        }
+    }
+    return changed;
+}
+
+#endif

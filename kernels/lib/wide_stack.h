@@ -1,0 +1,30 @@
+/* The children that a traversal of 8-wide nodes has still to visit. OpenCL C only. */
+#ifndef MACULA_LIB_WIDE_STACK_H
+#define MACULA_LIB_WIDE_STACK_H
+
+#include "shared/bvh.h"
+
+/* Each level leaves at most seven siblings behind. */
+#define MACULA_WIDE_STACK (7 * MACULA_MAX_DEPTH + 8)
+
+/* Children to visit; those of a closest-hit query with a bound of the t at which a ray enters. */
+typedef struct WideStack {
+    int child[MACULA_WIDE_STACK];
+    float near[MACULA_ANY_HIT ? 1 : MACULA_WIDE_STACK];
+    uint depth;
+} WideStack;
+
+/* Keeps the entries above `base` sorted, the nearest on top. */
+static inline void push_child(WideStack *stack, uint base, int child, float near) {
+    uint i = stack->depth++;
+#if !MACULA_ANY_HIT
+    for (; i > base && stack->near[i - 1u] < near; --i) {
+        stack->near[i] = stack->near[i - 1u];
+        stack->child[i] = stack->child[i - 1u];
+    }
+    stack->near[i] = near;
+#endif
+    stack->child[i] = child;
+}
+
+#endif
