@@ -8,6 +8,7 @@ namespace macula::scene::procedural {
 Scene make_cornell(const SceneParams& params);
 Scene make_whitted(const SceneParams& params);
 Scene make_tunnel_geometry(const SceneParams& params);
+Scene make_atrium(const SceneParams& params);
 Scene make_tunnel_maps(const SceneParams& params);
 
 } // namespace macula::scene::procedural

@@ -1,5 +1,7 @@
 #include "scenes/procedural/textures.hpp"
 
+#include <algorithm>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -39,18 +41,31 @@ std::uint32_t add(Scene& scene, const std::string& name, Image&& image, bool srg
     return static_cast<std::uint32_t>(scene.textures.size() - 1);
 }
 
+// Calls row(y) for all rows, on all cores: textures are most of a scene's making.
+void for_rows(std::uint32_t rows, const std::function<void(std::uint32_t)>& row) {
+    const std::uint32_t threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    std::vector<std::jthread> pool;
+    for (std::uint32_t t = 0; t < threads; ++t)
+        pool.emplace_back([&, t] {
+            for (std::uint32_t y = t; y < rows; y += threads)
+                row(y);
+        });
+}
+
 // Paints all texels; heights are kept when asked for.
 Image paint(glm::uvec2 size, const Painter& painter, std::vector<float>* heights) {
-    Image image = blank(size);
+    std::vector<Texel> texels(std::size_t{size.x} * size.y);
     const glm::vec2 step = 1.0f / glm::vec2(size);
-    std::size_t i = 0;
-    for (std::uint32_t y = 0; y < size.y; ++y)
-        for (std::uint32_t x = 0; x < size.x; ++x, ++i) {
-            const Texel texel = painter((glm::vec2(x, y) + 0.5f) * step);
-            put(image, i, texel.colour, texel.alpha);
-            if (heights != nullptr)
-                heights->push_back(texel.height);
-        }
+    for_rows(size.y, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < size.x; ++x)
+            texels[std::size_t{y} * size.x + x] = painter((glm::vec2(x, y) + 0.5f) * step);
+    });
+    Image image = blank(size);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        put(image, i, texels[i].colour, texels[i].alpha);
+        if (heights != nullptr)
+            heights->push_back(texels[i].height);
+    }
     return image;
 }
 
