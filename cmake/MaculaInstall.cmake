@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules shared kernels bvh scenes cl kernel frame stage method metric output selftest host)
+set(modules shared kernels bvh scenes cl kernel frame stage method metric output render selftest host)
 foreach(module IN LISTS modules)
   if(NOT TARGET macula_${module})
     continue()
@@ -19,6 +19,7 @@ set_target_properties(macula_host PROPERTIES EXPORT_NAME macula)
 
 install(DIRECTORY host bvh scenes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macula
         FILES_MATCHING PATTERN *.hpp PATTERN app EXCLUDE)
+
 install(DIRECTORY kernels/shared kernels/lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macula
         FILES_MATCHING PATTERN *.h)
 install(TARGETS macula RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
