@@ -33,7 +33,7 @@ struct EmbreeScene::Impl {
     const scene::Scene* source = nullptr;
     std::uint32_t threads = 1;
     double build_seconds = 0.0;
-    std::unique_ptr<AlphaMasks> masks;
+    frame::MaskBitmaps masks;
     std::vector<std::vector<float>> positions; // by mesh, padded as Embree asks
     DeviceHandle device;
     std::vector<SceneHandle> mesh_scenes; // by mesh; null where no instance uses it

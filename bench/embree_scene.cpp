@@ -32,7 +32,7 @@ class Builder {
         impl_.device.reset(rtcNewDevice(config.c_str()));
         if (!impl_.device)
             throw std::runtime_error("Embree: no device (" + config + ")");
-        impl_.masks = std::make_unique<AlphaMasks>(scene_);
+        impl_.masks = frame::make_mask_bitmaps(scene_);
         copy_positions();
         impl_.mesh_scenes.resize(scene_.meshes.size());
         impl_.mesh_geometries.resize(scene_.meshes.size());
@@ -76,7 +76,7 @@ class Builder {
     }
 
     bool has_mask(const scene::Mesh& mesh, std::size_t triangle) const {
-        return impl_.masks->of_material[mesh.triangle_material[triangle]] != AlphaMasks::kNone;
+        return impl_.masks.of_material[mesh.triangle_material[triangle]] != frame::kNoMask;
     }
 
     // The mesh as up to two geometries of `target`: the unmasked triangles and the masked ones.
@@ -115,7 +115,7 @@ class Builder {
 
     void set_filter(RTCGeometry geometry, EmbreeGeometry& part) {
         part.filter =
-            std::make_unique<MaskFilter>(*impl_.masks, scene_.meshes[part.mesh], part.triangles);
+            std::make_unique<MaskFilter>(impl_.masks, scene_.meshes[part.mesh], part.triangles);
         rtcSetGeometryUserData(geometry, part.filter.get());
         rtcSetGeometryIntersectFilterFunction(geometry, filter_by_mask);
         rtcSetGeometryOccludedFilterFunction(geometry, filter_by_mask);

@@ -56,7 +56,7 @@ struct Judge::Meeting {
     }
 };
 
-Judge::Judge(const scene::Scene& scene) : scene_(scene), masks_(scene) {}
+Judge::Judge(const scene::Scene& scene) : scene_(scene), masks_(frame::make_mask_bitmaps(scene)) {}
 
 Judge::Meeting Judge::meet(const TestRay& ray, const Surface& surface) const {
     const scene::Mesh& mesh = scene_.meshes[surface.mesh];
@@ -94,7 +94,7 @@ Judge::Meeting Judge::meet(const TestRay& ray, const Surface& surface) const {
 bool Judge::near_texel_border(const Surface& surface, const Meeting& meeting) const {
     const scene::Mesh& mesh = scene_.meshes[surface.mesh];
     const std::uint32_t mask = masks_.of_material[mesh.triangle_material[surface.triangle]];
-    if (mask == AlphaMasks::kNone)
+    if (mask == frame::kNoMask)
         return false;
     const shared::MaskTriangle corners = masked_triangle(masks_, mesh, surface.triangle);
     const shared::MaskTexture& texture = masks_.textures[mask];

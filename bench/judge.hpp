@@ -50,7 +50,7 @@ class Judge {
     bool near_texel_border(const Surface& surface, const Meeting& meeting) const;
 
     const scene::Scene& scene_;
-    AlphaMasks masks_;
+    frame::MaskBitmaps masks_;
 };
 
 } // namespace macula::bench
