@@ -10,7 +10,7 @@
 namespace macula::scene {
 namespace {
 
-constexpr int kResolution = 112;
+constexpr int kResolution = 96;
 constexpr float kObjectFov = 45.0f, kInteriorFov = 75.0f; // degrees, vertical
 
 // `count` unit directions spread evenly over the sphere (a Fibonacci lattice).
@@ -33,7 +33,7 @@ struct FreePoint {
 
 // Points on a lattice in the bounds that keep some distance from every surface.
 std::vector<FreePoint> free_points(const Occupancy& grid) {
-    constexpr int kSteps = 14, kDirections = 96;
+    constexpr int kSteps = 14, kDirections = 48;
     constexpr std::array kHeights = {0.12f, 0.2f, 0.3f, 0.45f, 0.6f};
     constexpr float kEnclosed = 0.55f; // of the directions
     static const std::vector<glm::vec3> directions = sphere_directions(kDirections);
@@ -101,8 +101,8 @@ Camera object_camera(const Bounds& box) {
 // How much there is to see: the mean over the rays of a view, more for far depths, less for empty
 // space, for the backs of surfaces and for what is too near; and more for a varied picture, where
 // neighbouring rays often end at quite different depths.
+template <int kColumns, int kRows>
 float view_score(const Occupancy& grid, const glm::vec3& eye, const glm::vec3& forward) {
-    constexpr int kColumns = 12, kRows = 8;
     constexpr float kHalfHeight = 0.6f, kHalfWidth = 0.9f; // tangents
     constexpr float kJump = 0.6f;                          // octaves
     const float diagonal = grid.bounds().diagonal();
@@ -133,27 +133,45 @@ float view_score(const Occupancy& grid, const glm::vec3& eye, const glm::vec3& f
     return sum / kRays + 3.0f * static_cast<float>(jumps) / (2.0f * kRays);
 }
 
-Camera interior_camera(const Occupancy& grid, const std::vector<FreePoint>& points) {
-    constexpr int kYaws = 16;
+struct View {
+    glm::vec3 eye;
+    float yaw, score;
+};
+
+glm::vec3 direction_of(float yaw) {
     constexpr float kSlope = -0.04f; // slightly down
-    Camera best;
-    best.name = "default";
-    best.vertical_fov_degrees = kInteriorFov;
-    float best_score = -1e30f;
-    for (const FreePoint& point : points) {
+    return glm::normalize(glm::vec3(std::cos(yaw), kSlope, std::sin(yaw)));
+}
+
+// Judges all views with few rays, then the best of them, and those beside them, with more.
+Camera interior_camera(const Occupancy& grid, const std::vector<FreePoint>& points) {
+    constexpr int kYaws = 8;
+    constexpr std::size_t kKept = 32;
+    constexpr float kStep = 2.0f * std::numbers::pi_v<float> / kYaws;
+    std::vector<View> views;
+    for (const FreePoint& point : points)
         for (int k = 0; point.enclosed && k < kYaws; ++k) {
-            const float yaw = 2.0f * std::numbers::pi_v<float> * static_cast<float>(k) / kYaws;
-            const glm::vec3 forward =
-                glm::normalize(glm::vec3(std::cos(yaw), kSlope, std::sin(yaw)));
-            const float score = view_score(grid, point.position, forward);
-            if (score <= best_score)
-                continue;
-            best_score = score;
-            best.eye = point.position;
-            best.target = point.position + forward * (0.25f * grid.bounds().diagonal());
+            const float yaw = kStep * static_cast<float>(k);
+            views.push_back(
+                {point.position, yaw, view_score<6, 4>(grid, point.position, direction_of(yaw))});
         }
-    }
-    return best;
+    const auto better = [](const View& a, const View& b) { return a.score > b.score; };
+    std::stable_sort(views.begin(), views.end(), better);
+    views.resize(std::min(views.size(), kKept));
+    View best{views.front().eye, views.front().yaw, -1e30f};
+    for (const View& view : views)
+        for (const float turn : {0.0f, -0.5f * kStep, 0.5f * kStep}) {
+            const float yaw = view.yaw + turn;
+            const float score = view_score<12, 8>(grid, view.eye, direction_of(yaw));
+            if (score > best.score)
+                best = {view.eye, yaw, score};
+        }
+    Camera camera;
+    camera.name = "default";
+    camera.vertical_fov_degrees = kInteriorFov;
+    camera.eye = best.eye;
+    camera.target = best.eye + direction_of(best.yaw) * (0.25f * grid.bounds().diagonal());
+    return camera;
 }
 
 bool contains(const Bounds& box, const glm::vec3& p) {

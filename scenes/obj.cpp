@@ -145,8 +145,8 @@ void ObjBuilder::add_face(const tinyobj::index_t* corners, std::size_t count) {
     const std::string_view line = source_.last_line();
     for (std::size_t i = 0, digits = 0; i < line.size(); ++i) {
         digits = line[i] >= '0' && line[i] <= '9' ? digits + 1 : 0;
-        if (digits > 10)
-            fail("an index has more than 10 digits");
+        if (digits > 9)
+            fail("an index has more than 9 digits");
     }
     if (!material_known_) {
         material_ = materials_.default_material();
