@@ -71,7 +71,11 @@ Device open(const std::string& selector) {
 
 Device::Device(std::shared_ptr<DeviceState> state) : state_(std::move(state)) {}
 
-const DeviceFacts& Device::facts() const {
+const DeviceFacts& Device::facts() const& {
+    return state_->facts;
+}
+
+DeviceFacts Device::facts() && {
     return state_->facts;
 }
 

@@ -46,7 +46,9 @@ class Device {
   public:
     explicit Device(std::shared_ptr<DeviceState> state);
 
-    const DeviceFacts& facts() const;
+    const DeviceFacts& facts() const&;
+    /// Of a temporary: open("cpu").facts() must not dangle.
+    DeviceFacts facts() &&;
 
     /// Uninitialised device memory; 0 bytes is allowed. Throws Error, before asking OpenCL, when
     /// `bytes` is beyond the device's largest allocation or what is left of its memory.
