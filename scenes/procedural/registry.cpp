@@ -13,8 +13,11 @@ struct Entry {
 };
 
 constexpr std::array kScenes{
-    Entry{"atrium", make_atrium},           Entry{"cornell", make_cornell},
-    Entry{"whitted", make_whitted},         Entry{"tunnel_geometry", make_tunnel_geometry},
+    Entry{"atrium", make_atrium},
+    Entry{"voxel_city", make_voxel_city},
+    Entry{"cornell", make_cornell},
+    Entry{"whitted", make_whitted},
+    Entry{"tunnel_geometry", make_tunnel_geometry},
     Entry{"tunnel_maps", make_tunnel_maps},
 };
 
