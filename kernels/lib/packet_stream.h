@@ -38,7 +38,7 @@ static inline void push_packets(PacketStreamStack *stack, uint base, int child, 
     stack->packets[i] = packets;
 }
 
-static inline void visit_node(const PacketStream *stream, global const Wide8Node *node,
+static inline void visit_node(const TraceScene *scene, const PacketStream *stream, global const Wide8Node *node,
                               uint packets, uint octant, PacketStreamStack *stack) {
     const WidePlanes planes = load_planes(node, octant);
     int8 found = 0;
@@ -56,6 +56,7 @@ static inline void visit_node(const PacketStream *stream, global const Wide8Node
     while (lanes != 0ul) {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
+        fetch_child_single(scene, node->child[i]);
         push_packets(stack, base, node->child[i], ((const uint *)&found)[i],
                      ((const float *)&nearest)[i]);
     }
@@ -93,7 +94,7 @@ static inline void traverse_packets(const TraceScene *scene, const PacketInstanc
         if (left == 0u)
             continue;
         if (child >= 0)
-            visit_node(stream, nodes + child, left, octant, &stack);
+            visit_node(scene, stream, nodes + child, left, octant, &stack);
         else
             test_leaf_of_packets(scene, instance, stream, child, left);
     }

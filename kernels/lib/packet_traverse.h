@@ -17,7 +17,7 @@ static inline bool some_lane_enters(const Packet *p, global const Wide8Node *nod
     return any_lane16(enters);
 }
 
-static inline void push_children16(const Packet *p, const Frustum *f,
+static inline void push_children16(const TraceScene *scene, const Packet *p, const Frustum *f,
                                    global const Wide8Node *node, WideStack *stack) {
     const WidePlanes planes = load_planes(node, f->octant);
     float8 near;
@@ -26,8 +26,10 @@ static inline void push_children16(const Packet *p, const Frustum *f,
     while (lanes != 0ul) {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
-        if (some_lane_enters(p, node, i))
+        if (some_lane_enters(p, node, i)) {
+            fetch_child_single(scene, node->child[i]);
             push_child(stack, base, node->child[i], ((const float *)&near)[i]);
+        }
     }
 }
 
@@ -45,7 +47,7 @@ static inline void traverse_packet(const TraceScene *scene, const PacketInstance
             continue;
 #endif
         if (node >= 0) {
-            push_children16(p, &f, nodes + node, &stack);
+            push_children16(scene, p, &f, nodes + node, &stack);
         } else if (test_leaf16(scene, instance, p, best, node)) {
             bound_t_max(&f, p);
             if (f.t_max < 0.0f)

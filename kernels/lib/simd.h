@@ -28,6 +28,14 @@ static inline float greatest_lane16(float16 v) {
     return c.x > c.y ? c.x : c.y;
 }
 
+/* Asks the cache for the 64 bytes around p + offset; OpenCL's own prefetch() does nothing in PoCL. */
+#if defined(__x86_64__) || defined(__aarch64__)
+#define MACULA_FETCH(p, offset)                                                                    \
+    __builtin_prefetch((const void *)((ulong)(p) + (offset)))
+#else
+#define MACULA_FETCH(p, offset)
+#endif
+
 /* The number of each lane. */
 #define MACULA_LANES16 ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 

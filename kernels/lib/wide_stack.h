@@ -2,7 +2,8 @@
 #ifndef MACULA_LIB_WIDE_STACK_H
 #define MACULA_LIB_WIDE_STACK_H
 
-#include "shared/bvh.h"
+#include "lib/simd.h"
+#include "lib/traverse_query.h"
 
 /* Each level leaves at most seven siblings behind. */
 #define MACULA_WIDE_STACK (7 * MACULA_MAX_DEPTH + 8)
@@ -13,6 +14,22 @@ typedef struct WideStack {
     float near[MACULA_ANY_HIT ? 1 : MACULA_WIDE_STACK];
     uint depth;
 } WideStack;
+
+/* Asks the cache for a child of layout wide8_single: a node, or two Triangles. */
+static inline void fetch_child_single(const TraceScene *scene, int child) {
+    if (child >= 0) {
+        global const Wide8Node *node = (global const Wide8Node *)scene->nodes + child;
+        MACULA_FETCH(node, 0);
+        MACULA_FETCH(node, 64);
+        MACULA_FETCH(node, 128);
+        MACULA_FETCH(node, 192);
+    } else {
+        global const Triangle *triangle =
+            (global const Triangle *)scene->triangles + ((uint)~child >> MACULA_LEAF_COUNT_BITS);
+        MACULA_FETCH(triangle, 0);
+        MACULA_FETCH(triangle, 64);
+    }
+}
 
 /* Keeps the entries above `base` sorted, the nearest on top. */
 static inline void push_child(WideStack *stack, uint base, int child, float near) {

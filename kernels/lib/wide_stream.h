@@ -4,6 +4,7 @@
 #ifndef MACULA_LIB_WIDE_STREAM_H
 #define MACULA_LIB_WIDE_STREAM_H
 
+#include "lib/simd.h"
 #include "lib/wide_block.h"
 
 /* Each level leaves at most seven siblings behind. */
@@ -52,9 +53,27 @@ static inline StreamChildren enter_children8(global const Wide8Node *node,
     return found;
 }
 
+static inline void fetch_child(const TraceScene *scene, int child) {
+    if (child >= 0) {
+        global const Wide8Node *node = (global const Wide8Node *)scene->nodes + child;
+        MACULA_FETCH(node, 0);
+        MACULA_FETCH(node, 64);
+        MACULA_FETCH(node, 128);
+        MACULA_FETCH(node, 192);
+    } else {
+        global const TriangleBlock8 *block = (global const TriangleBlock8 *)scene->triangles +
+                                             ((uint)~child >> MACULA_LEAF_COUNT_BITS);
+        MACULA_FETCH(block, 0);
+        MACULA_FETCH(block, 64);
+        MACULA_FETCH(block, 128);
+        MACULA_FETCH(block, 192);
+        MACULA_FETCH(block, 256);
+    }
+}
+
 #if MACULA_ANY_HIT
 /* The child with most rays is visited first. */
-static inline void push_children(global const Wide8Node *node, StreamChildren found,
+static inline void push_children(const TraceScene *scene, global const Wide8Node *node, StreamChildren found,
                                  StreamStack *stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     if (lanes == 0ul)
@@ -66,6 +85,7 @@ static inline void push_children(global const Wide8Node *node, StreamChildren fo
         lanes = without_lane8(lanes, i);
         StreamEntry entry;
         entry.child = node->child[i];
+        fetch_child(scene, entry.child);
         entry.rays = ((const uint *)&found.rays)[i];
         const uint count = popcount(entry.rays);
         const bool more = count > most;
@@ -78,7 +98,7 @@ static inline void push_children(global const Wide8Node *node, StreamChildren fo
 }
 #else
 /* The nearest child is visited first. */
-static inline void push_children(global const Wide8Node *node, StreamChildren found,
+static inline void push_children(const TraceScene *scene, global const Wide8Node *node, StreamChildren found,
                                  StreamStack *stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     const uint base = stack->depth;
@@ -92,6 +112,7 @@ static inline void push_children(global const Wide8Node *node, StreamChildren fo
             stack->entry[i] = stack->entry[i - 1u];
         }
         stack->near[i] = near;
+        fetch_child(scene, node->child[lane]);
         stack->entry[i].child = node->child[lane];
         stack->entry[i].rays = ((const uint *)&found.rays)[lane];
     }
@@ -127,7 +148,7 @@ static inline uint traverse_stream(const TraceScene *scene, StreamRay *stream, i
             continue;
         if (entry.child >= 0) {
             global const Wide8Node *node = nodes + entry.child;
-            push_children(node, enter_children8(node, stream, left, octant), &stack);
+            push_children(scene, node, enter_children8(node, stream, left, octant), &stack);
         } else {
             answered |= test_leaf_of_rays(scene, stream, entry.child, left);
             if (answered == rays)
