@@ -188,8 +188,6 @@ TEST(Motion, OfATranslatedCameraIsThatOfTheProjection) {
     }
     EXPECT_GT(moved / pixels(motion), 0.5);
 }
-}
-}
 
 TEST(Motion, OfAMovingInstanceFollowsItsTransforms) {
     const View view{{0, 0, 5}, {0, 0, 0}, 40};
