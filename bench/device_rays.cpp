@@ -1,7 +1,6 @@
 #include "bench/device_rays.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 namespace macula::bench {
@@ -76,21 +75,20 @@ VariantRun::VariantRun(compute::Device& device, frame::DeviceGeometry& geometry,
                        kernel::Choice choice)
     : device_(device), choice_(std::move(choice)), tracer_(device, geometry, table_of(choice_)) {}
 
-LaunchTime VariantRun::run(DeviceRays& rays, std::optional<std::uint32_t> prefix) {
+RunTime VariantRun::run(DeviceRays& rays, std::optional<std::uint32_t> prefix) {
     const kernel::RayClass ray_class = rays.rays().ray_class;
     const std::uint32_t capacity = prefix.value_or(rays.rays().count);
     if (prefix)
         rays.count.write_one(capacity);
     device_.finish();
     device_.timeline().take();
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (is_any_hit(ray_class))
         tracer_.any(ray_class, rays.blocks, rays.count, capacity, rays.output, "bench");
     else
         tracer_.closest(ray_class, rays.blocks, rays.count, capacity, rays.output, "bench");
     device_.finish();
-    LaunchTime time;
-    time.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    RunTime time = watch.elapsed();
     for (const compute::Span& span : device_.timeline().take())
         time.device += static_cast<double>(span.device_ns()) * 1e-9;
     if (prefix)

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "bench/rays.hpp"
+#include "bench/run_time.hpp"
 #include "host/cl/device.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/stage/trace.hpp"
 
 namespace macula::bench {
-
-// Wall-clock and device time of one launch, seconds. `device` is 0 where the driver's profiling
-// gives nothing.
-struct LaunchTime {
-    double wall = 0.0, device = 0.0;
-};
 
 // Results of a ray set, on the host: hits of closest-hit classes, flags of any-hit ones.
 struct RayResults {
@@ -50,7 +45,7 @@ class VariantRun {
     VariantRun(compute::Device& device, frame::DeviceGeometry& geometry, kernel::Choice choice);
 
     // Enqueues the query of the set's class and waits. `prefix`: only the first so many rays.
-    LaunchTime run(DeviceRays& rays, std::optional<std::uint32_t> prefix = std::nullopt);
+    RunTime run(DeviceRays& rays, std::optional<std::uint32_t> prefix = std::nullopt);
 
     // Runs growing prefixes, twice each (the first launch may compile), then all. Gives the reason,
     // a sentence without a full stop, as soon as `runs` runs of all rays would take longer than

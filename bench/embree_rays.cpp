@@ -1,7 +1,6 @@
 #include "bench/embree_rays.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <span>
 #include <type_traits>
 
@@ -106,7 +105,7 @@ T& at(T (&lanes)[N], std::uint32_t lane) {
 struct EmbreeRays::Impl {
     Impl(const EmbreeScene& scene, const RaySet& rays) : scene_(scene), rays_(rays) {}
     virtual ~Impl() = default;
-    virtual double run() = 0;
+    virtual RunTime run() = 0;
     virtual EmbreeHit hit(std::uint32_t ray) = 0;
     virtual bool occluded(std::uint32_t ray) = 0;
 
@@ -125,12 +124,12 @@ class Laid : public EmbreeRays::Impl {
             place(i);
     }
 
-    double run() override {
+    RunTime run() override {
         reset();
         tbb::task_arena arena(static_cast<int>(scene_.threads()));
         const std::size_t grain = kChunk / kWidth;
         const std::size_t chunks = (groups_.size() + grain - 1) / grain;
-        const auto start = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         arena.execute([&] {
             tbb::parallel_for(
                 tbb::blocked_range<std::size_t>(0, chunks, 1),
@@ -140,7 +139,7 @@ class Laid : public EmbreeRays::Impl {
                 },
                 tbb::simple_partitioner());
         });
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return watch.elapsed();
     }
 
     EmbreeHit hit(std::uint32_t i) override {
@@ -255,7 +254,7 @@ const char* name(EmbreeCall call) {
 EmbreeRays::EmbreeRays(const EmbreeScene& scene, const RaySet& rays, EmbreeCall call)
     : impl_(lay_out(scene, rays, call)) {}
 EmbreeRays::~EmbreeRays() = default;
-double EmbreeRays::run() {
+RunTime EmbreeRays::run() {
     return impl_->run();
 }
 EmbreeHit EmbreeRays::hit(std::uint32_t ray) const {

@@ -11,6 +11,7 @@
 
 #include "bench/embree_scene.hpp"
 #include "bench/rays.hpp"
+#include "bench/run_time.hpp"
 
 namespace macula::bench {
 
@@ -33,9 +34,9 @@ class EmbreeRays {
     EmbreeRays(const EmbreeRays&) = delete;
     EmbreeRays& operator=(const EmbreeRays&) = delete;
 
-    // Traces all rays on the scene's threads in chunks of 1024, fetched as they are needed. Returns
-    // the wall-clock seconds. What the last run left in the rays is undone before, untimed.
-    double run();
+    // Traces all rays on the scene's threads in chunks of 1024, fetched as they are needed. What
+    // the last run left in the rays is undone before, untimed.
+    RunTime run();
 
     // Of the last run. Closest-hit classes.
     EmbreeHit hit(std::uint32_t ray) const;

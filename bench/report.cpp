@@ -14,9 +14,9 @@ std::string row(const TraversalRecord& r) {
     const char mark = r.chosen ? '*' : ' ';
     if (!r.skipped.empty())
         return fmt::format("  {} {:<26} left out: {}\n", mark, r.variant, r.skipped);
-    std::string text =
-        fmt::format("  {} {:<26} {:>8.2f} {:>8.2f}   {:>6.3f} [{:.3f} {:.3f}]", mark, r.variant,
-                    r.mrays_per_s, r.device_mrays_per_s, r.ratio, r.ratio_p10, r.ratio_p90);
+    std::string text = fmt::format(
+        "  {} {:<26} {:>8.2f} {:>8.2f}   {:>6.3f} [{:.3f} {:.3f}] {:>7.3f}", mark, r.variant,
+        r.mrays_per_s, r.device_mrays_per_s, r.ratio, r.ratio_p10, r.ratio_p90, r.cpu_ratio);
     if (r.mismatches_reference != 0)
         text += fmt::format("  DIFFERS from the reference in {} rays", r.mismatches_reference);
     if (r.mismatches_embree != 0)
@@ -98,6 +98,7 @@ std::string json_line(const TraversalReport& report, const TraversalRecord& r) {
         {"ratio", r.ratio},
         {"ratio_p10", r.ratio_p10},
         {"ratio_p90", r.ratio_p90},
+        {"cpu_ratio", r.cpu_ratio},
         {"mismatches", {{"embree", r.mismatches_embree}, {"reference", r.mismatches_reference}}},
         {"explained", {{"ties", r.ties}, {"rounding", r.rounding}}},
         {"ray_count", r.ray_count},
@@ -128,8 +129,8 @@ std::string table(std::span<const TraversalRecord> records) {
     for (std::size_t i = 0; i < kEmbreeCalls.size(); ++i)
         text += fmt::format("{}{} {:.2f}", i == 0 ? "" : ", ", name(kEmbreeCalls[i]),
                             first.embree_calls[i]);
-    text += fmt::format(")\n    {:<26} {:>8} {:>8}   {:>6} [10 % 90 %]\n", "variant (* chosen)",
-                        "Mrays/s", "device", "ratio");
+    text += fmt::format(")\n    {:<26} {:>8} {:>8}   {:>6} [10 %  90 %] by CPU time\n",
+                        "variant (* chosen)", "Mrays/s", "device", "ratio");
     for (const TraversalRecord& r : records)
         text += row(r);
     for (const TraversalRecord& r : records) {

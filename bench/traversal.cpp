@@ -47,7 +47,6 @@ class SceneRun {
         TraversalRecord record;
         std::unique_ptr<VariantRun> run;
         RayResults results;
-        std::vector<double> device_seconds;
     };
 
     // The variants to run, and those that are left out with the reason.
@@ -91,32 +90,45 @@ class SceneRun {
         c.results = rays.results();
     }
 
+    // Seconds of a contestant or an Embree call, one entry a round.
+    struct Series {
+        std::vector<double> wall, cpu, device;
+        void add(const RunTime& time) {
+            wall.push_back(time.wall);
+            cpu.push_back(time.cpu);
+            device.push_back(time.device);
+        }
+    };
+
     void measure(const RaySet& rays, DeviceRays& device_rays,
                  std::vector<Contestant>& contestants) {
         std::vector<std::unique_ptr<EmbreeRays>> embree;
-        std::vector<metric::Measurement> measurements;
         for (const EmbreeCall call : kEmbreeCalls) {
-            EmbreeRays* made =
-                embree.emplace_back(std::make_unique<EmbreeRays>(embree_, rays, call)).get();
-            made->run();
-            measurements.emplace_back([made] { return made->run(); });
+            embree.push_back(std::make_unique<EmbreeRays>(embree_, rays, call));
+            embree.back()->run();
         }
         judge(rays, *embree.front(), device_rays, contestants);
+        std::vector<std::function<RunTime()>> runs;
+        for (const auto& call : embree)
+            runs.emplace_back([&call] { return call->run(); });
         std::vector<Contestant*> running;
         for (Contestant& c : contestants) {
             if (!c.run)
                 continue;
             running.push_back(&c);
-            measurements.emplace_back([&c, &device_rays] {
-                const LaunchTime time = c.run->run(device_rays);
-                c.device_seconds.push_back(time.device);
-                return time.wall;
-            });
+            runs.emplace_back([&c, &device_rays] { return c.run->run(device_rays); });
         }
-        const auto seconds = metric::interleave(measurements, options_.rounds);
-        fill_embree(rays, seconds, contestants);
+        std::vector<Series> series(runs.size());
+        std::vector<metric::Measurement> measurements;
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            measurements.emplace_back([&run = runs[i], &to = series[i]] {
+                to.add(run());
+                return to.wall.back();
+            });
+        metric::interleave(measurements, options_.rounds);
+        const std::size_t best = fill_embree(rays, series, contestants);
         for (std::size_t i = 0; i < running.size(); ++i)
-            fill(*running[i], rays, seconds, kEmbreeCalls.size() + i);
+            fill(running[i]->record, rays, series[kEmbreeCalls.size() + i], series[best]);
         for (Contestant& c : contestants)
             report_.records.push_back(std::move(c.record));
     }
@@ -144,33 +156,34 @@ class SceneRun {
         }
     }
 
-    void fill_embree(const RaySet& rays, const std::vector<std::vector<double>>& seconds,
-                     std::vector<Contestant>& contestants) {
-        TraversalRecord common;
-        best_ = 0;
-        for (std::size_t i = 0; i < kEmbreeCalls.size(); ++i) {
-            common.embree_calls[i] = 1e-6 * rays.count / metric::median(seconds[i]);
-            if (common.embree_calls[i] > common.embree_calls[best_])
-                best_ = i;
-        }
+    // Returns the index of Embree's fastest call.
+    std::size_t fill_embree(const RaySet& rays, std::span<const Series> series,
+                            std::vector<Contestant>& contestants) {
+        std::array<double, kEmbreeCalls.size()> calls{};
+        for (std::size_t i = 0; i < calls.size(); ++i)
+            calls[i] = 1e-6 * rays.count / metric::median(series[i].wall);
+        const auto best =
+            static_cast<std::size_t>(std::max_element(calls.begin(), calls.end()) - calls.begin());
         for (Contestant& c : contestants) {
             c.record.ray_count = rays.count;
             c.record.rounds = options_.rounds;
-            c.record.embree_calls = common.embree_calls;
-            c.record.embree_best = name(kEmbreeCalls[best_]);
-            c.record.embree_mrays_per_s = common.embree_calls[best_];
+            c.record.embree_calls = calls;
+            c.record.embree_best = name(kEmbreeCalls[best]);
+            c.record.embree_mrays_per_s = calls[best];
         }
+        return best;
     }
 
-    void fill(Contestant& c, const RaySet& rays, const std::vector<std::vector<double>>& seconds,
-              std::size_t row) {
-        c.record.mrays_per_s = 1e-6 * rays.count / metric::median(seconds[row]);
-        const double device = metric::median(c.device_seconds);
-        c.record.device_mrays_per_s = device > 0.0 ? 1e-6 * rays.count / device : 0.0;
-        const std::vector<double> ratios = metric::ratios(seconds[best_], seconds[row]);
-        c.record.ratio = metric::median(ratios);
-        c.record.ratio_p10 = metric::percentile(ratios, 0.1);
-        c.record.ratio_p90 = metric::percentile(ratios, 0.9);
+    static void fill(TraversalRecord& record, const RaySet& rays, const Series& own,
+                     const Series& embree) {
+        record.mrays_per_s = 1e-6 * rays.count / metric::median(own.wall);
+        const double device = metric::median(own.device);
+        record.device_mrays_per_s = device > 0.0 ? 1e-6 * rays.count / device : 0.0;
+        const std::vector<double> ratios = metric::ratios(embree.wall, own.wall);
+        record.ratio = metric::median(ratios);
+        record.ratio_p10 = metric::percentile(ratios, 0.1);
+        record.ratio_p90 = metric::percentile(ratios, 0.9);
+        record.cpu_ratio = metric::median(metric::ratios(embree.cpu, own.cpu));
     }
 
     const TraversalOptions& options_;
@@ -183,7 +196,6 @@ class SceneRun {
     Comparison comparison_;
     stage::VariantTable chosen_;
     std::vector<SurfacePoint> points_;
-    std::size_t best_ = 0; // index into kEmbreeCalls
 };
 
 void check(const TraversalOptions& options) {

@@ -39,6 +39,8 @@ struct TraversalRecord {
     double embree_mrays_per_s = 0.0;
     std::array<double, kEmbreeCalls.size()> embree_calls{}; // Mrays/s, in order of kEmbreeCalls
     double ratio = 0.0, ratio_p10 = 0.0, ratio_p90 = 0.0;   // to embree_best, round by round
+    double cpu_ratio =
+        0.0; // the same by the process's CPU time, which other processes disturb less
     std::uint32_t mismatches_embree = 0, mismatches_reference = 0;
     std::uint32_t ties = 0, rounding = 0; // disagreements with Embree that are none
 };
