@@ -1,6 +1,7 @@
 // Embree as an independent oracle: hit or no hit, t within 1e-4 relative, the same triangle save
 // for true ties (bench/judge.hpp says what a tie is, and what rounding may explain).
 #include <filesystem>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,71 @@ TEST_P(EmbreeOracle, AgreesOnEveryRayClass) {
     if (is_file && !std::filesystem::exists(name))
         GTEST_SKIP() << name << " is not here";
     check(bench::open_case(name, {}));
+}
+
+// Random triangles, each mesh placed many times under rotations, uneven scales, shears and a
+// mirror, one mesh with a checkerboard mask, over a floor that is placed once.
+bench::Case placed_meshes() {
+    std::mt19937 generator(5);
+    const auto uniform = [&](float lo, float hi) {
+        return lo + (hi - lo) * static_cast<float>(generator() >> 8) * 0x1p-24f;
+    };
+    bench::Case made;
+    made.name = "placed";
+    scene::Scene& s = made.scene;
+    s.materials.resize(2);
+    s.textures.push_back({});
+    s.textures[0].has_alpha = true;
+    s.textures[0].levels.push_back({8, 8, {}});
+    for (int i = 0; i < 64; ++i) {
+        const auto alpha = static_cast<std::uint8_t>((i + i / 8) % 2 == 0 ? 255 : 0);
+        s.textures[0].levels[0].rgba.insert(s.textures[0].levels[0].rgba.end(),
+                                            {200, 200, 200, alpha});
+    }
+    s.materials[1].alpha_mode = scene::AlphaMode::mask;
+    s.materials[1].diffuse_texture = 0;
+    for (std::uint32_t m = 0; m < 2; ++m) {
+        scene::Mesh mesh;
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const glm::vec3 centre(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+            for (int corner = 0; corner < 3; ++corner) {
+                mesh.positions.push_back(
+                    centre + 0.3f * glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+                mesh.uvs.emplace_back(uniform(-2, 2), uniform(-2, 2));
+            }
+            mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+            mesh.triangle_material.push_back(m);
+        }
+        s.meshes.push_back(mesh);
+        for (int i = 0; i < 20; ++i) {
+            scene::Instance instance;
+            instance.mesh = m;
+            for (int row = 0; row < 3; ++row) {
+                glm::vec4 r(uniform(-0.5f, 0.5f), uniform(-0.5f, 0.5f), uniform(-0.5f, 0.5f),
+                            uniform(-5.0f, 5.0f));
+                r[row] += i == 0 ? -1.5f : 1.5f;
+                instance.world_from_object.row[row] = r;
+            }
+            s.instances.push_back(instance);
+        }
+    }
+    scene::Mesh floor;
+    floor.positions = {{-9, -6, -9}, {9, -6, -9}, {9, -6, 9}, {-9, -6, 9}};
+    floor.uvs.resize(4);
+    floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+    floor.triangle_material = {0, 0};
+    s.meshes.push_back(floor);
+    s.instances.push_back({2, {}, "floor"});
+    made.bounds = s.bounds();
+    made.camera = bench::pinhole({4, 3, 14}, {0, 0, 0}, {0, 1, 0}, 50.0f, 1.0f);
+    made.light = {3, 12, 5};
+    return made;
+}
+
+class EmbreeOracleOfInstances : public EmbreeOracle {};
+
+TEST_F(EmbreeOracleOfInstances, AgreesUnderAffineTransformsAndMasks) {
+    check(placed_meshes());
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
