@@ -104,6 +104,8 @@ struct TownPlan {
     // Within the two avenues, which cross in the middle; `margin` blocks more to each side.
     bool on_avenue(int x, int z, int margin = 0) const;
     bool in_town(int x, int z) const;
+    // Small towns are villages: no wall, no cathedral.
+    bool walled() const { return size >= 200; }
 };
 
 inline constexpr int kWaterLevel = 26;   // first air above the river

@@ -13,7 +13,7 @@
 namespace macula::scene::procedural {
 namespace {
 
-constexpr std::uint32_t kDefaultSize = 880;
+constexpr std::uint32_t kDefaultSize = 858;
 constexpr std::uint32_t kSmallest = 32, kLargest = 2048;
 
 struct Paint {
@@ -144,7 +144,7 @@ Scene make_voxel_city(const SceneParams& params) {
     scene.cameras.push_back(
         {"over_the_roofs",
          {0.12f * static_cast<float>(size), 78.0f, 0.2f * static_cast<float>(size)},
-         {0.52f * static_cast<float>(size), 30.0f, 0.52f * static_cast<float>(size)},
+         {0.5f * static_cast<float>(size), 18.0f, 0.5f * static_cast<float>(size)},
          {0, 1, 0},
          60.0f});
     return scene;

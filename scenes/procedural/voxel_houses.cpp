@@ -13,7 +13,7 @@ constexpr int kStorey = 4; // three blocks of room and a floor
 void split(Lot area, Random& random, std::vector<Lot>& lots) {
     const int longer = std::max(area.width(), area.depth());
     const int shorter = std::min(area.width(), area.depth());
-    if (shorter < 8)
+    if (shorter < 7)
         return;
     const int largest = random.between(14, 22);
     if (longer <= largest) {
@@ -41,12 +41,12 @@ bool overlaps(const Lot& a, const Lot& b, int margin) {
 }
 
 bool usable(const TownPlan& plan, const Lot& lot) {
+    const float limit = plan.walled() ? plan.radius - 7.0f : 1.35f * plan.radius;
     for (const int x : {lot.x0, lot.x1})
         for (const int z : {lot.z0, lot.z1}) {
             const float away =
                 plan.distance_from_middle(static_cast<float>(x), static_cast<float>(z));
-            if (away > plan.radius - 7.0f ||
-                plan.river(static_cast<float>(x), static_cast<float>(z)) < 2.0f)
+            if (away > limit || plan.river(static_cast<float>(x), static_cast<float>(z)) < 2.0f)
                 return false;
         }
     const Lot cathedral = cathedral_lot(plan);

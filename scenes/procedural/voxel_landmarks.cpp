@@ -198,7 +198,7 @@ void street_lamps(VoxelGrid& grid, const TownPlan& plan) {
 } // namespace
 
 Lot cathedral_lot(const TownPlan& plan) {
-    if (plan.size < 200)
+    if (!plan.walled())
         return {0, 0, -1, -1};
     const int x0 = plan.size / 2 + kAvenueHalfWidth + 14,
               z0 = plan.size / 2 + kAvenueHalfWidth + 12;
@@ -206,7 +206,8 @@ Lot cathedral_lot(const TownPlan& plan) {
 }
 
 void build_landmarks(VoxelGrid& grid, const TownPlan& plan, Random& random) {
-    town_wall(grid, plan);
+    if (plan.walled())
+        town_wall(grid, plan);
     bridges(grid, plan);
     street_lamps(grid, plan);
     const Lot lot = cathedral_lot(plan);

@@ -84,7 +84,7 @@ bool TownPlan::in_town(int x, int z) const {
 TownPlan plan_town(int size, std::uint32_t seed) {
     TownPlan plan;
     plan.size = size;
-    plan.radius = 0.37f * static_cast<float>(size);
+    plan.radius = (plan.walled() ? 0.37f : 0.44f) * static_cast<float>(size);
     plan.seed = seed;
     plan.ground.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
     std::size_t i = 0;

@@ -1,0 +1,259 @@
+// What every built-in scene must be: valid, deterministic, fully textured and lit, of its size.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scenes/procedural/registry.hpp"
+
+namespace macula::scene::procedural {
+namespace {
+
+// voxel_city in a size fit for tests.
+SceneParams params_for(const std::string& name, std::uint64_t seed = 1) {
+    return {seed, name == "voxel_city" ? 64u : 0u};
+}
+
+// Each scene is made once for all tests.
+const Scene& scene_named(const std::string& name) {
+    static std::map<std::string, std::unique_ptr<Scene>> known;
+    auto& scene = known[name];
+    if (!scene)
+        scene = std::make_unique<Scene>(*make(name, params_for(name)));
+    return *scene;
+}
+
+class Fingerprint {
+  public:
+    void add(std::uint32_t word) { hash_ = (hash_ ^ word) * 0x100000001b3ull; }
+    void add(float value) { add(std::bit_cast<std::uint32_t>(value)); }
+    void add(glm::vec3 v) {
+        add(v.x);
+        add(v.y);
+        add(v.z);
+    }
+    std::uint64_t value() const { return hash_; }
+
+  private:
+    std::uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+void add_mesh(Fingerprint& print, const Mesh& mesh) {
+    for (const glm::vec3& p : mesh.positions)
+        print.add(p);
+    for (const glm::vec3& n : mesh.normals)
+        print.add(n);
+    for (const glm::vec2& uv : mesh.uvs) {
+        print.add(uv.x);
+        print.add(uv.y);
+    }
+    for (const glm::uvec3& t : mesh.triangles) {
+        print.add(t.x);
+        print.add(t.y);
+        print.add(t.z);
+    }
+    for (const std::uint32_t material : mesh.triangle_material)
+        print.add(material);
+}
+
+std::uint64_t fingerprint(const Scene& scene) {
+    Fingerprint print;
+    for (const Mesh& mesh : scene.meshes)
+        add_mesh(print, mesh);
+    for (const Texture& texture : scene.textures)
+        for (const MipLevel& level : texture.levels)
+            for (const std::uint8_t byte : level.rgba)
+                print.add(static_cast<std::uint32_t>(byte));
+    for (const CameraKey& key : scene.path.keys) {
+        print.add(key.eye);
+        print.add(key.target);
+    }
+    for (const Instance& instance : scene.instances)
+        for (const glm::vec4& row : instance.world_from_object.row) {
+            print.add(glm::vec3(row));
+            print.add(row.w);
+        }
+    return print.value();
+}
+
+bool is_finite(glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+class ProceduralScene : public testing::TestWithParam<std::string> {
+  protected:
+    const Scene& scene() const { return scene_named(GetParam()); }
+};
+
+TEST_P(ProceduralScene, SameSeedGivesSameBytesAndAnotherSeedDiffers) {
+    const std::uint64_t first = fingerprint(scene());
+    EXPECT_EQ(fingerprint(*make(GetParam(), params_for(GetParam()))), first);
+    // These two have nothing random in them.
+    const bool constant = GetParam() == "cornell" || GetParam() == "whitted";
+    EXPECT_EQ(fingerprint(*make(GetParam(), params_for(GetParam(), 2))) == first, constant);
+}
+
+TEST_P(ProceduralScene, IndicesAreInRangeAndArraysAgree) {
+    for (const Mesh& mesh : scene().meshes) {
+        EXPECT_EQ(mesh.triangle_material.size(), mesh.triangles.size());
+        EXPECT_TRUE(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+        EXPECT_TRUE(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
+        std::size_t bad = 0;
+        for (const glm::uvec3& t : mesh.triangles)
+            bad += std::max(t.x, std::max(t.y, t.z)) >= mesh.positions.size() ? 1 : 0;
+        for (const std::uint32_t material : mesh.triangle_material)
+            bad += material >= scene().materials.size() ? 1 : 0;
+        EXPECT_EQ(bad, 0u) << mesh.name;
+    }
+    for (const Instance& instance : scene().instances)
+        EXPECT_LT(instance.mesh, scene().meshes.size());
+}
+
+TEST_P(ProceduralScene, NumbersAreFiniteAndNormalsHaveUnitLength) {
+    for (const Mesh& mesh : scene().meshes) {
+        std::size_t bad_positions = 0, bad_normals = 0, bad_uvs = 0;
+        for (const glm::vec3& p : mesh.positions)
+            bad_positions += is_finite(p) ? 0 : 1;
+        for (const glm::vec3& n : mesh.normals)
+            bad_normals += std::fabs(glm::length(n) - 1.0f) < 1e-4f ? 0 : 1;
+        for (const glm::vec2& uv : mesh.uvs)
+            bad_uvs += std::isfinite(uv.x) && std::isfinite(uv.y) ? 0 : 1;
+        EXPECT_EQ(bad_positions, 0u);
+        EXPECT_EQ(bad_normals, 0u);
+        EXPECT_EQ(bad_uvs, 0u);
+    }
+}
+
+TEST_P(ProceduralScene, NoTriangleIsDegenerate) {
+    for (const Mesh& mesh : scene().meshes) {
+        std::size_t degenerate = 0;
+        for (const glm::uvec3& t : mesh.triangles) {
+            const glm::vec3 a = mesh.positions[t.x];
+            const glm::vec3 n = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+            degenerate += glm::dot(n, n) > 0.0f ? 0 : 1;
+        }
+        EXPECT_EQ(degenerate, 0u) << mesh.name;
+    }
+}
+
+TEST_P(ProceduralScene, FrontFacesAgreeWithNormals) {
+    for (const Mesh& mesh : scene().meshes) {
+        if (mesh.normals.empty())
+            continue;
+        std::size_t against = 0;
+        for (const glm::uvec3& t : mesh.triangles) {
+            const glm::vec3 a = mesh.positions[t.x];
+            const glm::vec3 n = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+            const glm::vec3 sum = mesh.normals[t.x] + mesh.normals[t.y] + mesh.normals[t.z];
+            against += glm::dot(n, sum) < 0.0f ? 1 : 0;
+        }
+        // Tightly curled leaves and displaced rock may fold over in places.
+        EXPECT_LE(against, mesh.triangles.size() / 200) << mesh.name;
+    }
+}
+
+TEST_P(ProceduralScene, TexturesHaveCompleteMipChains) {
+    for (const Texture& texture : scene().textures) {
+        ASSERT_FALSE(texture.levels.empty()) << texture.name;
+        std::uint32_t width = texture.levels[0].width, height = texture.levels[0].height;
+        for (const MipLevel& level : texture.levels) {
+            EXPECT_EQ(level.width, width) << texture.name;
+            EXPECT_EQ(level.height, height) << texture.name;
+            EXPECT_EQ(level.rgba.size(), std::size_t{width} * height * 4) << texture.name;
+            width = std::max(1u, width / 2);
+            height = std::max(1u, height / 2);
+        }
+        EXPECT_EQ(texture.levels.back().width, 1u);
+        EXPECT_EQ(texture.levels.back().height, 1u);
+    }
+}
+
+TEST_P(ProceduralScene, MaterialsReferToTexturesAndReflectNoMoreThanTheyReceive) {
+    ASSERT_FALSE(scene().materials.empty());
+    const auto known = [&](std::uint32_t texture) {
+        return texture == kNoTexture || texture < scene().textures.size();
+    };
+    for (const Material& m : scene().materials) {
+        EXPECT_FALSE(m.name.empty());
+        EXPECT_TRUE(known(m.diffuse_texture) && known(m.alpha_texture) &&
+                    known(m.specular_texture) && known(m.normal_texture) &&
+                    known(m.emission_texture))
+            << m.name;
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(m.diffuse[c], 0.0f) << m.name;
+            EXPECT_LE(m.diffuse[c], 1.0f) << m.name;
+        }
+        EXPECT_GT(m.shininess, 0.0f) << m.name;
+        const bool cut_out =
+            m.alpha_texture != kNoTexture ||
+            (m.diffuse_texture != kNoTexture && scene().textures[m.diffuse_texture].has_alpha);
+        EXPECT_TRUE(cut_out || m.alpha_mode != AlphaMode::mask) << m.name;
+    }
+}
+
+TEST_P(ProceduralScene, TexturedMeshesHaveTextureCoordinates) {
+    for (const Mesh& mesh : scene().meshes)
+        for (const std::uint32_t material : mesh.triangle_material)
+            if (scene().materials[material].diffuse_texture != kNoTexture) {
+                EXPECT_FALSE(mesh.uvs.empty()) << mesh.name;
+                break;
+            }
+}
+
+TEST_P(ProceduralScene, HasLightCameraPathAndPlacedMeshes) {
+    EXPECT_FALSE(scene().lights.empty());
+    EXPECT_FALSE(scene().cameras.empty());
+    EXPECT_FALSE(scene().instances.empty());
+    EXPECT_EQ(scene().name, GetParam());
+    EXPECT_EQ(scene().path.frames, 1000u);
+    ASSERT_GE(scene().path.keys.size(), 2u);
+    for (std::size_t i = 1; i < scene().path.keys.size(); ++i)
+        EXPECT_GT(scene().path.keys[i].frame, scene().path.keys[i - 1].frame);
+    EXPECT_FLOAT_EQ(scene().path.keys.front().frame, 0.0f);
+    EXPECT_GE(scene().path.keys.back().frame, 999.0f);
+}
+
+std::vector<std::string> all_names() {
+    std::vector<std::string> all;
+    for (const std::string_view name : names())
+        all.emplace_back(name);
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProceduralScene, testing::ValuesIn(all_names()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(ProceduralRegistry, UnknownNameGivesNothing) {
+    EXPECT_FALSE(make("no_such_scene").has_value());
+    EXPECT_FALSE(make("").has_value());
+}
+
+TEST(ProceduralRegistry, TriangleCountsAreThoseOfTheModelsTheyStandFor) {
+    const auto triangles = [](const std::string& name) {
+        return scene_named(name).triangle_count();
+    };
+    EXPECT_EQ(triangles("cornell"), 38u);
+    EXPECT_GT(triangles("whitted"), 60'000u);
+    EXPECT_GT(triangles("tunnel_geometry"), 250'000u);
+    EXPECT_GT(triangles("tunnel_maps"), 50'000u);
+    EXPECT_NEAR(static_cast<double>(triangles("atrium")), 250e3, 25e3);
+}
+
+TEST(ProceduralRegistry, AtriumHasMaskedFoliageAndChains) {
+    const Scene& scene = scene_named("atrium");
+    std::map<std::string, std::size_t> masked;
+    for (const std::uint32_t material : scene.meshes.at(0).triangle_material)
+        if (scene.materials[material].alpha_mode == AlphaMode::mask)
+            ++masked[scene.materials[material].name];
+    EXPECT_GT(masked["ivy"], 1000u);
+    EXPECT_GT(masked["frond"], 1000u);
+    EXPECT_GT(masked["leaf_spray"], 1000u);
+    EXPECT_GT(masked["chain"], 10u);
+}
+
+} // namespace
+} // namespace macula::scene::procedural
