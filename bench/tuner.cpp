@@ -86,7 +86,8 @@ class ClassTuner {
     TuneCandidate tune_parameters(TuneCandidate best, const kernel::DeviceTraits& traits) {
         for (const kernel::Parameter& parameter : best.choice.variant->parameters) {
             std::vector<TuneCandidate> tries;
-            for (const std::uint32_t value : values_to_try(parameter, traits.max_work_group)) {
+            for (const std::uint32_t value :
+                 values_to_try(parameter, options_.furthest, traits.max_work_group)) {
                 tries.push_back({best.choice, 0.0, {}});
                 tries.back().choice.parameters[parameter.name] = value;
             }
@@ -156,17 +157,17 @@ TuneOptions TuneOptions::quick() {
     options.rounds = 3;
     options.limit_seconds = 2.0;
     options.worth_tuning = 1.0;
-    options.rays.size = 256;
+    options.furthest = 2;
     return options;
 }
 
-std::vector<std::uint32_t> values_to_try(const kernel::Parameter& parameter,
+std::vector<std::uint32_t> values_to_try(const kernel::Parameter& parameter, std::uint32_t furthest,
                                          std::uint32_t max_work_group) {
     std::uint32_t maximum = parameter.maximum;
     if (std::string_view(parameter.name) == "work_group")
         maximum = std::min(maximum, max_work_group);
     std::set<std::uint32_t> values;
-    for (std::uint32_t step = 1; step <= 8; step *= 2) {
+    for (std::uint32_t step = 1; step <= furthest; step *= 2) {
         for (const std::uint64_t value :
              {std::uint64_t{parameter.standard} / step, std::uint64_t{parameter.standard} * step}) {
             if (value >= parameter.minimum && value <= maximum)

@@ -23,6 +23,7 @@ struct TuneOptions {
     // Variants whose time with standard parameters is within this factor of the fastest one's have
     // their parameters measured, too.
     double worth_tuning = 1.25;
+    std::uint32_t furthest = 8; // values up to this factor from a parameter's standard are tried
     RayOptions rays{512, 1};
 
     static TuneOptions quick();
@@ -41,9 +42,9 @@ struct TuneClass {
     std::vector<TuneCandidate> candidates;
 };
 
-// The values that are tried for a parameter, ascending: its standard and steps of two around it,
-// up to a factor of eight, inside its range and the device's largest work-group.
-std::vector<std::uint32_t> values_to_try(const kernel::Parameter& parameter,
+// The values that are tried for a parameter, ascending: its standard and steps of two around it, up
+// to a factor of `furthest`, inside its range and the device's largest work-group.
+std::vector<std::uint32_t> values_to_try(const kernel::Parameter& parameter, std::uint32_t furthest,
                                          std::uint32_t max_work_group);
 
 // One entry for each ray class; the first candidate of each is the choice unless it was skipped.
