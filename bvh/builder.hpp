@@ -6,6 +6,9 @@
 
 namespace macula::bvh {
 
-Tree build_tree(ReferenceSet references, const BuildOptions& options);
+// With `geometry`, spatial splits may divide references into the spare room behind them, up to
+// `capacity` in all.
+Tree build_tree(ReferenceSet references, std::uint32_t capacity, const Geometry* geometry,
+                const BuildOptions& options);
 
 } // namespace macula::bvh

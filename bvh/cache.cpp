@@ -34,8 +34,8 @@ struct Header {
     std::uint32_t version, node_bytes;
     Key key;
     std::uint64_t nodes;
-    std::uint32_t references, pad;
-    std::uint64_t checksum; // XXH3 of the nodes
+    std::uint64_t references;
+    std::uint64_t checksum; // XXH3 of the nodes, seeded with the references
 };
 static_assert(sizeof(Header) == 56 && std::is_trivially_copyable_v<TreeNode>);
 
@@ -110,7 +110,7 @@ std::string fault_of(std::span<const std::byte> bytes, const Key& key) {
     const std::span<const std::byte> nodes = bytes.subspan(sizeof(Header));
     if (header.nodes != nodes.size() / sizeof(TreeNode) || nodes.size() % sizeof(TreeNode) != 0)
         return "truncated";
-    if (XXH3_64bits(nodes.data(), nodes.size()) != header.checksum)
+    if (XXH3_64bits_withSeed(nodes.data(), nodes.size(), header.references) != header.checksum)
         return "corrupted";
     return "";
 }
@@ -119,7 +119,7 @@ Tree read_tree(std::span<const std::byte> bytes) {
     Header header;
     std::memcpy(&header, bytes.data(), sizeof header);
     Tree tree;
-    tree.references = header.references;
+    tree.references = static_cast<std::uint32_t>(header.references);
     tree.nodes.resize(header.nodes);
     if (!tree.nodes.empty())
         std::memcpy(tree.nodes.data(), bytes.data() + sizeof header,
@@ -136,7 +136,8 @@ std::string write_tree(const fs::path& path, const Key& key, const Tree& tree) {
     header.key = key;
     header.nodes = tree.nodes.size();
     header.references = tree.references;
-    header.checksum = XXH3_64bits(tree.nodes.data(), tree.nodes.size() * sizeof(TreeNode));
+    header.checksum = XXH3_64bits_withSeed(tree.nodes.data(), tree.nodes.size() * sizeof(TreeNode),
+                                           header.references);
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     const fs::path partial = path.string() + ".partial-" + std::to_string(getpid());

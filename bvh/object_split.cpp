@@ -81,8 +81,10 @@ ObjectSplit best_split(const Bins<Most>& bins, const BinMapping& mapping) {
         }
     }
     if (best.is_valid()) {
-        for (std::uint32_t i = 0; i < mapping.bins; ++i)
+        for (std::uint32_t i = 0; i < mapping.bins; ++i) {
             (i < best.bin ? best.left : best.right).add(bins.box[best.axis][i]);
+            (i < best.bin ? best.left_count : best.right_count) += bins.count[best.axis][i];
+        }
     }
     return best;
 }

@@ -23,7 +23,7 @@ struct Subset {
     }
 };
 
-inline constexpr std::uint32_t kMostBins = 256;
+inline constexpr std::uint32_t kMostBins = 128;
 
 // Maps centroids to bins, for each axis.
 struct BinMapping {
@@ -47,6 +47,7 @@ struct ObjectSplit {
     std::uint32_t axis = 0, bin = 0;
     BinMapping mapping;
     Box4 left, right;
+    std::uint32_t left_count = 0, right_count = 0;
 
     bool is_valid() const { return cost < std::numeric_limits<float>::infinity(); }
     bool goes_left(const Reference& reference) const {
@@ -61,7 +62,7 @@ ObjectSplit find_object_split(std::span<const Reference> references, const Subse
 
 // Exact sweep over all splits of at most kSweepSize references. Sorts them along the chosen axis
 // and returns how many go left.
-inline constexpr std::uint32_t kSweepSize = 8;
+inline constexpr std::uint32_t kSweepSize = 4;
 std::uint32_t sweep_split(std::span<Reference> references);
 
 } // namespace macula::bvh

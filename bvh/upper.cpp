@@ -127,7 +127,8 @@ std::vector<shared::BinaryNode> build_upper(std::span<const shared::Instance> in
     if (instances.size() >= (std::size_t{1} << (31 - MACULA_LEAF_COUNT_BITS)))
         throw std::invalid_argument("BVH upper level: " + std::to_string(instances.size()) +
                                     " instances; at most 2^27 - 1 are supported");
-    const Tree tree = build_tree(boxes_of(instances), {});
+    const auto count = static_cast<std::uint32_t>(instances.size());
+    const Tree tree = build_tree(boxes_of(instances), count, nullptr, {});
     std::vector<shared::BinaryNode> nodes;
     if (tree.nodes.empty()) {
         write_node(nodes.emplace_back(), kEmptyBox, {});

@@ -14,11 +14,11 @@ MACULA_SHARED_BEGIN
 /* t of a plane p is fma(p, reciprocal, offset). Rounding is monotonic, so no parent box can cull a
  * child that passes. Offsets are padded by MACULA_RAY_MARGIN * the origin's largest component, as a
  * distance along the axis; triangle boxes carry a margin of their own vertices' size (triangle.h);
- * far planes are scaled by more than the fma's rounding. Together that is over twice the error of a
- * computed hit, whose t and sheared edges are off by up to 32 * 2^-24 of the largest difference
+ * far planes are scaled by more than the fma's rounding. Together that is more than the error of a
+ * computed hit, whose t and sheared edges are off by up to 22 * 2^-24 of the largest difference
  * between a vertex and the origin: so a box, also one that holds only a part of a triangle, is
  * entered by every ray that hits what is in it (docs/arithmetic.md). */
-#define MACULA_RAY_MARGIN 0x1p-18f
+#define MACULA_RAY_MARGIN 0x1p-19f
 #define MACULA_FAR_SCALE 0x1.000008p+0f /* 1 + 2^-21 */
 
 typedef struct TraceRay {

@@ -29,11 +29,11 @@ MACULA_INLINE float snap_tiny(float x) {
 /* A triangle's box, in its nodes and in its own test, is that of its vertices widened on all sides
  * by this much: MACULA_TRIANGLE_MARGIN * the largest coordinate in size, at least 2^-38 (which also
  * covers snap_tiny). See ray.h. */
-#define MACULA_TRIANGLE_MARGIN 0x1p-18f
+#define MACULA_TRIANGLE_MARGIN 0x1p-19f
 MACULA_INLINE float triangle_margin(float lo_x, float lo_y, float lo_z, float hi_x, float hi_y,
                                     float hi_z) {
     const float x = m_max(-lo_x, hi_x), y = m_max(-lo_y, hi_y), z = m_max(-lo_z, hi_z);
-    return MACULA_TRIANGLE_MARGIN * m_max(m_max(x, y), m_max(z, 0x1p-20f));
+    return MACULA_TRIANGLE_MARGIN * m_max(m_max(x, y), m_max(z, 0x1p-19f));
 }
 
 MACULA_INLINE TraceHit no_hit(float t_max) {
