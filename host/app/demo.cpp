@@ -9,6 +9,7 @@
 
 #include "host/app/command.hpp"
 #include "host/app/frame_files.hpp"
+#include "host/app/render_options.hpp"
 #include "scenes/load.hpp"
 
 namespace {
@@ -58,6 +59,7 @@ int run(const Options& options) {
         engine.height = picture.height;
         engine.lights = picture.lights;
         engine.samples_per_pixel = picture.samples_per_pixel;
+        engine.geometry.cache_directory = app::bvh_cache_folder();
         const scene::Scene scene = scene::load(picture.scene);
         render::Renderer renderer(device, scene, engine);
         renderer.render(picture.frame); // warms up: the first launch of a kernel builds it

@@ -101,6 +101,8 @@ int render_frames(const app::RenderOptions& options) {
     for (const std::string& warning : scene.warnings)
         fmt::print(stderr, "macula: warning: {}\n", warning);
     render::Renderer renderer(device, scene, engine);
+    for (const std::string& note : renderer.geometry().notes)
+        fmt::print(stderr, "macula: {}\n", note);
     const bool json = options.json || (isatty(STDOUT_FILENO) == 0 && !options.hash);
     std::signal(SIGINT, on_interrupt);
     const Progress progress(range);

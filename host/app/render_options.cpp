@@ -10,6 +10,7 @@
 
 #include "host/app/aov.hpp"
 #include "host/app/command.hpp"
+#include "host/kernel/program_cache.hpp"
 #include "scenes/display.hpp"
 #include "scenes/load.hpp"
 
@@ -77,6 +78,11 @@ void set_size(render::Options& engine, const RenderOptions& options) {
 
 } // namespace
 
+std::filesystem::path bvh_cache_folder() {
+    const std::filesystem::path cache = kernel::ProgramCache::default_folder();
+    return cache.empty() ? cache : cache / "bvh";
+}
+
 FrameRange parse_frames(const std::string& text) {
     if (text.empty())
         return {};
@@ -121,6 +127,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.variant = options.variant;
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
+    engine.geometry.cache_directory = bvh_cache_folder();
     set_size(engine, options);
     return engine;
 }

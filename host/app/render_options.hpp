@@ -30,6 +30,9 @@ struct RenderOptions {
     void add_to(CLI::App& command);
 };
 
+/// "bvh" in the user's cache folder; empty when there is none.
+std::filesystem::path bvh_cache_folder();
+
 /// Frames [first, end).
 struct FrameRange {
     std::uint32_t first = 0, end = 1;

@@ -46,7 +46,8 @@ else
   echo 'runtimes: rusticl skipped (package mesa-opencl-icd is not installed)'
 fi
 if install_intel; then
-  runtimes+=("intel cpu|OCL_ICD_VENDORS=$intel/vendors|--device|0")
+  # Its own loader and threads come with it, newer than Debian's.
+  runtimes+=("intel cpu|OCL_ICD_VENDORS=$intel/vendors LD_LIBRARY_PATH=$intel/lib|--device|0")
 else
   echo 'runtimes: intel cpu skipped (intel-opencl-rt could not be installed from PyPI)'
 fi
@@ -58,7 +59,7 @@ for scene in cornell whitted tunnel_maps; do
     for runtime in "${runtimes[@]}"; do
       IFS='|' read -r name environment option value <<<"$runtime"
       compare "$scene $lights on $name" "$expected" \
-        "$(hashes "$environment" -- "$scene" "${small[@]}" --lights "$lights" "$option" "$value")"
+        "$(hashes $environment -- "$scene" "${small[@]}" --lights "$lights" "$option" "$value")"
     done
   done
 done
