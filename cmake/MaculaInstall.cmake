@@ -9,8 +9,9 @@ foreach(module IN LISTS modules)
     continue()
   endif()
   set_target_properties(macula_${module} PROPERTIES EXPORT_NAME ${module})
-  target_include_directories(macula_${module}
-                             INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/macula>)
+  target_include_directories(macula_${module} INTERFACE
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/macula>)
   install(TARGETS macula_${module} EXPORT macula-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
@@ -20,6 +21,7 @@ set_target_properties(macula_host PROPERTIES EXPORT_NAME macula)
 install(DIRECTORY host bvh scenes DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macula
         FILES_MATCHING PATTERN *.hpp PATTERN app EXCLUDE)
 
+install(FILES host/macula.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macula)
 install(DIRECTORY kernels/shared kernels/lib DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macula
         FILES_MATCHING PATTERN *.h)
 install(TARGETS macula RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
