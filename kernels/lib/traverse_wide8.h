@@ -46,7 +46,7 @@ static inline ulong enter_wide8(global const Wide8Node* node, const TraceRay* r,
                   vload8(0, node->plane[2][sz]), vload8(0, node->plane[0][sx ^ 1u]),
                   vload8(0, node->plane[1][sy ^ 1u]), vload8(0, node->plane[2][sz ^ 1u]), near,
                   &far);
-    return lane_mask8((*near <= far) & (*near <= (float8)(r->t_max)));
+    return lane_mask8(*near <= m_min8(far, (float8)(r->t_max)));
 }
 
 #endif

@@ -33,7 +33,7 @@ static inline uint enter_quantized(global const Quantized8Node* node, const Trac
                   grid_planes(x ? node->lo[0] : node->hi[0], sx, node->origin[0]),
                   grid_planes(y ? node->lo[1] : node->hi[1], sy, node->origin[1]),
                   grid_planes(z ? node->lo[2] : node->hi[2], sz, node->origin[2]), &near, &far);
-    const int8 entered = (near <= far) & (near <= (float8)(r->t_max));
+    const int8 entered = near <= m_min8(far, (float8)(r->t_max));
     const int8 bit = entered & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
     const int4 bit4 = bit.lo | bit.hi;
     const int2 bit2 = bit4.lo | bit4.hi;
