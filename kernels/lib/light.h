@@ -72,9 +72,11 @@ MACULA_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, float3 from, 
     out->weight = m_divide(2.0f * height, radius_squared) * falloff;
 }
 
-/* Sample `index` of the light's `samples` strata; `sample` counts the samples of the pixel. */
-MACULA_INLINE void sample_light(MACULA_GLOBAL const Light* light, float3 from, uint key,
-                                uint sample, uint dimension, uint index, LightSample* out) {
+/* Sample `index` of the light's strata, make_strata(columns, samples); `sample` counts the samples
+ * of the pixel. */
+MACULA_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* strata, float3 from,
+                                uint key, uint sample, uint dimension, uint index,
+                                LightSample* out) {
     out->direction = make3(0.0f, 0.0f, 1.0f);
     out->unit_direction = out->direction;
     out->t_max = -1.0f;
@@ -91,8 +93,7 @@ MACULA_INLINE void sample_light(MACULA_GLOBAL const Light* light, float3 from, u
             emit_cosine(light, out);
     } else {
         float u, v;
-        stratified_point(key, sample * light->samples + index, dimension, index, light->columns,
-                         light->samples, &u, &v);
+        stratified_point(key, sample * light->samples + index, dimension, index, strata, &u, &v);
         if (light->kind == MACULA_LIGHT_SPHERE) {
             sample_sphere(light, from, u, v, out);
         } else {

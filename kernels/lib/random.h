@@ -6,10 +6,10 @@
 
 MACULA_SHARED_BEGIN
 
-/* Dimensions, so that no two uses share a number. Two-dimensional draws take d and d + 1. */
-#define MACULA_DIMENSION_PIXEL 0u
+/* Dimensions, so that no two uses share a number. */
+#define MACULA_DIMENSION_PIXEL 0u /* and the next one */
 #define MACULA_DIMENSION_AMBIENT_OCCLUSION 2u
-#define MACULA_DIMENSION_LIGHTS 16u /* + 2 * light */
+#define MACULA_DIMENSION_LIGHTS 16u /* + light */
 
 /* Wellons' `lowbias32`: a bijection of 32 bits with a near-ideal avalanche. */
 MACULA_INLINE uint random_mix(uint x) {

@@ -16,16 +16,30 @@ MACULA_INLINE uint strata_columns(uint count) {
     return columns;
 }
 
-/* A point of [0, 1)^2 in cell `index` of a grid of columns x (count / columns) cells. All pixels of
- * a packet draw from the same cell, which keeps their rays coherent. `sample` counts the draws of
- * one pixel over all of its samples. */
-MACULA_INLINE void stratified_point(uint key, uint sample, uint dimension, uint index, uint columns,
-                                    uint count, float* u, float* v) {
-    const uint rows = count / columns;
-    const float x = (float)(index % columns) + random_unit(key, sample, dimension);
-    const float y = (float)(index / columns) + random_unit(key, sample, dimension + 1u);
-    *u = m_min(m_divide(x, (float)columns), 0x1.fffffep-1f);
-    *v = m_min(m_divide(y, (float)rows), 0x1.fffffep-1f);
+/* The grid of strata of a unit square. */
+typedef struct Strata {
+    uint columns;
+    float width, height; /* of a cell */
+} Strata;
+
+MACULA_INLINE Strata make_strata(uint columns, uint count) {
+    Strata strata;
+    strata.columns = columns;
+    strata.width = m_divide(1.0f, (float)columns);
+    strata.height = m_divide((float)columns, (float)count);
+    return strata;
+}
+
+/* A point of [0, 1)^2 in cell `index`, below 2^20, from the two halves of one hash. All pixels of a
+ * packet draw from the same cell, which keeps their rays coherent. `sample` counts the draws of one
+ * pixel over all of its samples. */
+MACULA_INLINE void stratified_point(uint key, uint sample, uint dimension, uint index,
+                                    const Strata* strata, float* u, float* v) {
+    const uint bits = random_bits(key, sample, dimension);
+    const uint row = (uint)(((float)index + 0.5f) * strata->width);
+    const uint column = index - row * strata->columns;
+    *u = fma((float)(bits >> 16), 0x1p-16f, (float)column) * strata->width;
+    *v = fma((float)(bits & 0xffffu), 0x1p-16f, (float)row) * strata->height;
 }
 
 /* Two unit vectors that make an orthonormal basis with the unit vector n (Duff et al. 2017). */
@@ -37,28 +51,38 @@ MACULA_INLINE void basis_around(float3 n, float3* tangent, float3* bitangent) {
     *bitangent = make3(b, fma(n.y, n.y * a, sign), -n.y);
 }
 
-/* x * tangent + y * bitangent + z * n. */
-MACULA_INLINE float3 in_basis_of(float3 n, float x, float y, float z) {
-    float3 tangent, bitangent;
-    basis_around(n, &tangent, &bitangent);
-    return scale_add3(tangent, x, scale_add3(bitangent, y, n * z));
+/* An orthonormal basis about n. */
+typedef struct Basis {
+    float3 tangent, bitangent, n;
+} Basis;
+
+MACULA_INLINE Basis make_basis(float3 n) {
+    Basis basis;
+    basis_around(n, &basis.tangent, &basis.bitangent);
+    basis.n = n;
+    return basis;
 }
 
-/* Direction about the unit vector n with density cosine / pi. */
-MACULA_INLINE float3 cosine_direction(float3 n, float u, float v) {
+MACULA_INLINE float3 in_basis(const Basis* basis, float x, float y, float z) {
+    return scale_add3(basis->tangent, x, scale_add3(basis->bitangent, y, basis->n * z));
+}
+
+/* Direction about the basis' normal with density cosine / pi. */
+MACULA_INLINE float3 cosine_direction(const Basis* basis, float u, float v) {
     float cosine;
     const float sine = m_sin_cos_pi(v + v, &cosine);
     const float radius = m_sqrt(u);
-    return in_basis_of(n, radius * cosine, radius * sine, m_sqrt(1.0f - u));
+    return in_basis(basis, radius * cosine, radius * sine, m_sqrt(1.0f - u));
 }
 
 /* Direction with uniform density inside the cone of height 1 - cos(half angle) about n. */
 MACULA_INLINE float3 cone_direction(float3 n, float height, float u, float v) {
+    const Basis basis = make_basis(n);
     float cosine;
     const float sine = m_sin_cos_pi(v + v, &cosine);
     const float drop = u * height; /* 1 - cos, exact for narrow cones */
     const float radius = m_sqrt(drop * (2.0f - drop));
-    return in_basis_of(n, radius * cosine, radius * sine, 1.0f - drop);
+    return in_basis(&basis, radius * cosine, radius * sine, 1.0f - drop);
 }
 
 MACULA_SHARED_END

@@ -33,11 +33,13 @@ kernel void generate_ambient_occlusion_rays(
     const float3 normal = used ? shading_normal[slot].xyz : above;
     const float3 origin = scale_add3(above, surface.w, surface.xyz);
     const uint key = used ? random_key(pixels[slot], frame->frame, frame->seed) : 0u;
+    const Strata strata = make_strata(frame->ambient_occlusion_columns, samples);
+    const Basis basis = make_basis(normal);
     for (uint index = 0u; index < samples; ++index) {
         float u, v;
         stratified_point(key, sample * samples + index, MACULA_DIMENSION_AMBIENT_OCCLUSION, index,
-                         frame->ambient_occlusion_columns, samples, &u, &v);
-        float3 direction = cosine_direction(normal, u, v);
+                         &strata, &u, &v);
+        float3 direction = cosine_direction(&basis, u, v);
         /* A bent shading normal sends some rays into the surface: they are mirrored out of it, or
          * they would darken every smooth silhouette. */
         const float height = dot3(direction, above);

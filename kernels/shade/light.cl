@@ -28,6 +28,7 @@ kernel void generate_shadow_rays(
     global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint entry = get_global_id(0), count = batch_count(*queue_count, first);
     const uint samples = lights[light].samples;
+    const Strata strata = make_strata(lights[light].columns, samples);
     if (entry == 0u) {
         const uint capacity = (uint)get_global_size(0);
         *ray_count = batch_rays(count, samples, capacity);
@@ -43,8 +44,8 @@ kernel void generate_shadow_rays(
     const uint key = used ? random_key(pixels[slot], frame->frame, frame->seed) : 0u;
     for (uint index = 0u; index < samples; ++index) {
         LightSample s;
-        sample_light(lights + light, surface.xyz, key, sample, MACULA_DIMENSION_LIGHTS + 2u * light,
-                     index, &s);
+        sample_light(lights + light, &strata, surface.xyz, key, sample,
+                     MACULA_DIMENSION_LIGHTS + light, index, &s);
         const bool above = used && s.weight > 0.0f && dot3(s.direction, normal) > 0.0f;
         store_ray(rays, queued_ray(entry, index, samples), origin, s.direction,
                   above ? s.t_max : -1.0f);
@@ -71,13 +72,14 @@ kernel void add_light(global const FrameParams* restrict frame, uint sample,
     const float3 to_viewer = unit3(vector_at(frame->camera.origin) - from, normal);
     const uint key = random_key(pixels[slot], frame->frame, frame->seed);
     const uint samples = lights[light].samples;
+    const Strata strata = make_strata(lights[light].columns, samples);
     float diffuse = 0.0f, glossy = 0.0f;
     for (uint index = 0u; index < samples; ++index) {
         if (occluded[queued_ray(entry, index, samples)] != 0u)
             continue;
         LightSample s;
-        sample_light(lights + light, from, key, sample, MACULA_DIMENSION_LIGHTS + 2u * light, index,
-                     &s);
+        sample_light(lights + light, &strata, from, key, sample, MACULA_DIMENSION_LIGHTS + light,
+                     index, &s);
         const float cosine = dot3(normal, s.unit_direction);
         if (!(s.weight > 0.0f && s.t_max > 0.0f && cosine > 0.0f &&
               dot3(above, s.direction) > 0.0f))

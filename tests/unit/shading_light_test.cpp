@@ -26,12 +26,13 @@ struct Estimate {
 // the light's own strata; the error is that of the mean over pixels.
 Estimate irradiance(const Light& light, float3 from, float3 n, int pixels) {
     double sum = 0, squares = 0;
+    const shared::Strata strata = shared::make_strata(light.columns, light.samples);
     for (int pixel = 0; pixel < pixels; ++pixel) {
         const shared::uint key = shared::random_key(static_cast<shared::uint>(pixel), 0, 0);
         double one = 0;
         for (shared::uint i = 0; i < light.samples; ++i) {
             shared::LightSample s{};
-            shared::sample_light(&light, from, key, 0, 16, i, &s);
+            shared::sample_light(&light, &strata, from, key, 0, 16, i, &s);
             const double cosine = dot(n, s.unit_direction);
             if (s.t_max > 0.0f && cosine > 0.0)
                 one += double{s.weight} * cosine / light.samples;
@@ -134,9 +135,10 @@ TEST(SphereLight, ShadowRaysEndAtItsSurface) {
     source.position = {0, 3, 0};
     source.radius = 1.0f;
     const Light light = make(source, frame::LightMode::area, 16);
+    const shared::Strata strata = shared::make_strata(light.columns, light.samples);
     for (shared::uint i = 0; i < 16; ++i) {
         shared::LightSample s{};
-        shared::sample_light(&light, {0.5f, 0, 0}, 77, 0, 16, i, &s);
+        shared::sample_light(&light, &strata, {0.5f, 0, 0}, 77, 0, 16, i, &s);
         const float3 end = scale_add3(s.direction, s.t_max, {0.5f, 0, 0});
         const float3 d = end - float3{0, 3, 0};
         EXPECT_NEAR(std::sqrt(dot(d, d)), 1.0, 5e-3);

@@ -82,10 +82,11 @@ TEST(Strata, GridHasExactlyTheNumberOfSamples) {
 TEST(Strata, EachCellGetsOnePoint) {
     for (const uint count : {1u, 7u, 8u, 16u, 25u, 4096u}) {
         const uint columns = strata_columns(count), rows = count / columns;
+        const Strata strata = make_strata(columns, count);
         std::vector<int> hits(count, 0);
         for (uint i = 0; i < count; ++i) {
             float u = -1, v = -1;
-            stratified_point(random_key(9, 9, 9), i, 2, i, columns, count, &u, &v);
+            stratified_point(random_key(9, 9, 9), i, 2, i, &strata, &u, &v);
             ASSERT_TRUE(u >= 0.0f && u < 1.0f && v >= 0.0f && v < 1.0f);
             const auto cell = static_cast<uint>(u * static_cast<float>(columns)) +
                               columns * static_cast<uint>(v * static_cast<float>(rows));
@@ -119,10 +120,12 @@ TEST(Warps, CosineDirectionsHaveTheCosinesMoments) {
     const float3 n = unit3({0.3f, -0.8f, 0.5f}, {0, 0, 1});
     double cosine = 0, squared = 0, side = 0;
     const uint count = 1u << 16;
+    const Strata strata = make_strata(256, count);
+    const Basis basis = make_basis(n);
     for (uint i = 0; i < count; ++i) {
         float u = 0, v = 0;
-        stratified_point(random_key(4, 0, 0), i, 0, i, 256, count, &u, &v);
-        const float3 d = cosine_direction(n, u, v);
+        stratified_point(random_key(4, 0, 0), i, 0, i, &strata, &u, &v);
+        const float3 d = cosine_direction(&basis, u, v);
         ASSERT_NEAR(dot(d, d), 1.0, 1e-5);
         ASSERT_GE(dot(d, n), -1e-6);
         cosine += dot(d, n);
