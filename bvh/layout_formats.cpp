@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "bvh/octant_slots.hpp"
+
 #include "shared/ray.h"
 
 namespace macula::bvh {
@@ -77,7 +79,11 @@ void write_node(shared::Wide8Node& node, const Box&, std::span<const Child> chil
 void write_node(shared::Quantized8Node& node, const Box& box, std::span<const Child> children) {
     node = {};
     std::fill_n(node.child, 8, -1);
-    node.exponent = ((1u << children.size()) - 1u) << 24;
+    const std::array<std::uint8_t, 8> slots = octant_slots(box, children);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        node.child[slots[i]] = children[i].reference;
+        node.exponent |= 1u << (24 + slots[i]);
+    }
     for (int axis = 0; axis < 3; ++axis) {
         const float origin = box.lo[axis];
         const std::uint32_t exponent = exponent_for(origin, box.hi[axis]);
@@ -85,12 +91,11 @@ void write_node(shared::Quantized8Node& node, const Box& box, std::span<const Ch
         node.exponent |= exponent << (8 * axis);
         std::fill_n(node.lo[axis], 8, shared::uchar{255});
         for (std::size_t i = 0; i < children.size(); ++i) {
-            node.lo[axis][i] = quantise_down(children[i].box.lo[axis], exponent, origin);
-            node.hi[axis][i] = quantise_up(children[i].box.hi[axis], exponent, origin);
+            const std::size_t slot = slots[i];
+            node.lo[axis][slot] = quantise_down(children[i].box.lo[axis], exponent, origin);
+            node.hi[axis][slot] = quantise_up(children[i].box.hi[axis], exponent, origin);
         }
     }
-    for (std::size_t i = 0; i < children.size(); ++i)
-        node.child[i] = children[i].reference;
 }
 
 std::uint32_t entries_for(const shared::Triangle*, std::uint32_t triangles) {
