@@ -1,7 +1,7 @@
 #include "bench/device_rays.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 
 namespace macula::bench {
 namespace {
@@ -28,8 +28,8 @@ std::string one_decimal(double value) {
 std::uint32_t RayResults::differences(const RayResults& a, const RayResults& b,
                                       std::uint32_t count) {
     std::uint32_t different = 0;
-    const auto same = [](const auto& x, const auto& y) {
-        return std::memcmp(&x, &y, sizeof x) == 0;
+    const auto same = [](float x, float y) {
+        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
     };
     for (std::uint32_t i = 0; i < count; ++i) {
         if (!a.occluded.empty()) {

@@ -109,6 +109,7 @@ class SceneRun {
         }
         judge(rays, *embree.front(), device_rays, contestants);
         std::vector<std::function<RunTime()>> runs;
+        runs.reserve(kEmbreeCalls.size() + contestants.size());
         for (const auto& call : embree)
             runs.emplace_back([&call] { return call->run(); });
         std::vector<Contestant*> running;
@@ -120,6 +121,7 @@ class SceneRun {
         }
         std::vector<Series> series(runs.size());
         std::vector<metric::Measurement> measurements;
+        measurements.reserve(runs.size());
         for (std::size_t i = 0; i < runs.size(); ++i)
             measurements.emplace_back([&run = runs[i], &to = series[i]] {
                 to.add(run());
