@@ -125,10 +125,8 @@ class Builder {
 
     // The overlap criterion of section 4.5, and what else tells that a search is in vain.
     bool may_divide(const Range& range, const Subset& subset, const ObjectSplit& object) const {
-        if (range.spare() == 0 || geometry_ == nullptr)
+        if (range.spare() == 0 || geometry_ == nullptr || !object.is_valid())
             return false;
-        if (!object.is_valid())
-            return subset.box.half_area() > least_overlap_;
         Box4 overlap = object.left;
         overlap.clip(object.right);
         const Float4 size = overlap.hi - overlap.lo;

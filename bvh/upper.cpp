@@ -34,12 +34,14 @@ void invert(const Rows& m, Rows& inverse) {
     const double determinant =
         m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
     double largest = 0.0;
+    bool finite = true;
     for (const auto& row : m) {
+        for (int j = 0; j < 4; ++j)
+            finite = finite && std::isfinite(row[j]);
         for (int j = 0; j < 3; ++j)
             largest = std::max(largest, std::fabs(double{row[j]}));
     }
-    if (!std::isfinite(determinant) ||
-        !(std::fabs(determinant) > 1e-12 * largest * largest * largest))
+    if (!finite || !(std::fabs(determinant) > 1e-12 * largest * largest * largest))
         throw std::invalid_argument("BVH instance: the transform is singular or not finite "
                                     "(determinant " +
                                     std::to_string(determinant) + ")");
