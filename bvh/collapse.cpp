@@ -17,8 +17,14 @@ Collapse::Collapse(const Tree& tree, const CollapseOptions& options)
     : tree_(tree), options_(options), choice_(tree.nodes.size()) {
     if (tree.nodes.empty())
         return;
-    const Costs costs = decide(0, static_cast<std::uint32_t>(tree.nodes.size()));
-    cost_ = double{costs[0]} / std::max(half_area(tree.nodes[0].box), 1e-38f);
+    // Relative areas: neither huge nor tiny meshes leave the range of floats.
+    const float root_area = half_area(tree.nodes[0].box);
+    scale_ = root_area > 1e-30f ? 1.0f / root_area : 0.0f;
+    cost_ = double{decide(0, static_cast<std::uint32_t>(tree.nodes.size()))[0]};
+}
+
+float Collapse::relative_area(std::uint32_t node) const {
+    return half_area(tree_.nodes[node].box) * scale_;
 }
 
 float Collapse::leaf_cost(std::uint32_t node, std::uint32_t end) const {
@@ -27,7 +33,7 @@ float Collapse::leaf_cost(std::uint32_t node, std::uint32_t end) const {
         return kNever;
     const std::uint32_t units =
         (triangles(node).count + options_.leaf_unit - 1) / options_.leaf_unit;
-    return half_area(tree_.nodes[node].box) * options_.leaf_cost * static_cast<float>(units);
+    return relative_area(node) * options_.leaf_cost * static_cast<float>(units);
 }
 
 // `end` is the index behind the subtree's last node.
@@ -61,8 +67,7 @@ Collapse::Costs Collapse::decide(std::uint32_t node, std::uint32_t end) {
         }
     }
     const float as_leaf = leaf_cost(node, end);
-    const float as_node =
-        half_area(tree_.nodes[node].box) * options_.node_cost + divided[options_.width];
+    const float as_node = relative_area(node) * options_.node_cost + divided[options_.width];
     choice[0] = as_leaf <= as_node ? 1 : 0;
     costs[0] = std::min(as_leaf, as_node);
     for (std::uint32_t j = 2; j <= 7; ++j) {

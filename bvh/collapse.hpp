@@ -48,12 +48,14 @@ class Collapse {
     using Choice = std::array<std::uint8_t, 8>;
 
     Costs decide(std::uint32_t node, std::uint32_t end);
+    float relative_area(std::uint32_t node) const;
     float leaf_cost(std::uint32_t node, std::uint32_t end) const;
     void gather(std::uint32_t node, std::uint32_t roots, Children& children) const;
 
     const Tree& tree_;
     CollapseOptions options_;
     std::vector<Choice> choice_;
+    float scale_ = 0.0f;
     double cost_ = 0.0;
 };
 
