@@ -35,10 +35,10 @@ void light(Scene& scene) {
     Light sun;
     sun.kind = LightKind::point;
     sun.position = {-11.0f, 38.0f, 9.0f};
-    sun.colour = {1.25f, 1.15f, 0.97f};
+    sun.colour = {1.2f, 1.1f, 0.93f};
     sun.radius = 0.8f;
     scene.lights.push_back(sun);
-    scene.ambient = {0.34f, 0.36f, 0.41f};
+    scene.ambient = {0.42f, 0.43f, 0.47f};
     scene.ambient_occlusion_radius = 3.0f;
     scene.background = linear_from_srgb(rgb(0x9cc3ea));
 }

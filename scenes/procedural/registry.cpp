@@ -15,6 +15,7 @@ struct Entry {
 constexpr std::array kScenes{
     Entry{"atrium", make_atrium},
     Entry{"voxel_city", make_voxel_city},
+    Entry{"city", make_city},
     Entry{"cornell", make_cornell},
     Entry{"whitted", make_whitted},
     Entry{"tunnel_geometry", make_tunnel_geometry},

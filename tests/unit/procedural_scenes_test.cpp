@@ -241,6 +241,17 @@ TEST(ProceduralRegistry, TriangleCountsAreThoseOfTheModelsTheyStandFor) {
     EXPECT_GT(triangles("tunnel_geometry"), 250'000u);
     EXPECT_GT(triangles("tunnel_maps"), 50'000u);
     EXPECT_NEAR(static_cast<double>(triangles("atrium")), 250e3, 25e3);
+    EXPECT_NEAR(static_cast<double>(triangles("city")), 770e3, 20e3);
+}
+
+TEST(ProceduralRegistry, CitysCarsAreInstancesOfSharedMeshes) {
+    const Scene& scene = scene_named("city");
+    std::map<std::uint32_t, std::size_t> uses;
+    for (const Instance& instance : scene.instances)
+        ++uses[instance.mesh];
+    EXPECT_EQ(uses[0], 1u);
+    EXPECT_EQ(uses.size(), scene.meshes.size());
+    EXPECT_GT(scene.instances.size(), 10 * scene.meshes.size());
 }
 
 TEST(ProceduralRegistry, AtriumHasMaskedFoliageAndChains) {
