@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bvh/array.hpp"
 #include "shared/bvh.h"
 
 namespace macula::bvh {
@@ -35,7 +36,7 @@ struct BuildOptions {
                                      // of it ends where it is not needed: about 0.2 is used
     float traversal_cost = 1.0f;     // SAH, per inner node
     float intersection_cost = 1.0f;  // SAH, per triangle reference
-    std::uint32_t bins = 32;         // object and spatial bins per axis, 2..256
+    std::uint32_t bins = 128;        // most bins per axis, 2..128; small nodes use fewer
     std::uint32_t threads = 0;       // 0: all
     bool operator==(const BuildOptions&) const = default;
 };
@@ -43,14 +44,14 @@ struct BuildOptions {
 // Binary tree over references, in depth-first order: node 0 is the root, the left child of node i
 // is i + 1. A leaf holds one reference. Boxes carry the margins of lib/triangle.h.
 struct TreeNode {
-    Box box{};
-    std::uint32_t right = 0;    // index of the right child; 0: a leaf
-    std::uint32_t triangle = 0; // of a leaf
+    Box box;
+    std::uint32_t right;    // index of the right child; 0: a leaf
+    std::uint32_t triangle; // of a leaf
     bool is_leaf() const { return right == 0; }
 };
 
 struct Tree {
-    std::vector<TreeNode> nodes;
+    Array<TreeNode> nodes;
     std::uint32_t references = 0;
     double build_seconds = 0.0;
 };

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr char kMagic[8] = {'M', 'A', 'C', 'U', 'L', 'A', 'B', 'V'};
 // Raised by every change to the builder or to TreeNode: an older file is then stale.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 struct Key {
     std::uint64_t low = 0, high = 0;
