@@ -33,9 +33,9 @@ std::vector<Outcome> check_traversal(const compute::Device& device, kernel::Libr
 /// The hash of one small frame against the expected one.
 Outcome check_frame(const compute::Device& device, kernel::Library& library);
 
-/// All of the above in order; `report` is called as each is known. An exception in a check is its
-/// failure. Returns true when all passed.
-bool run_all(const compute::Device& device, kernel::Library& library,
+/// All of the above in order, or without traversal and frame when `quick`; `report` is called as
+/// each is known. An exception in a check is its failure. Returns true when all passed.
+bool run_all(const compute::Device& device, kernel::Library& library, bool quick,
              const std::function<void(const Outcome&)>& report);
 
 } // namespace macula::selftest
