@@ -20,6 +20,8 @@ class ObjMaterials {
 
     // What follows `mtllib` on its line: one name, which may hold blanks, or several.
     void load_libraries(std::string_view names);
+    // The text of one library; `name` begins its warnings. Names already known keep their material.
+    void parse(const std::string& text, const std::string& name);
     // The index of a material called by `usemtl`; an unknown one is added with default values and
     // a warning.
     std::uint32_t find(const std::string& name);
@@ -28,7 +30,6 @@ class ObjMaterials {
 
   private:
     bool load_library(const std::string& name);
-    void parse(const std::string& text, const std::string& name);
 
     Scene& scene_;
     TextureSet& textures_;
