@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "lib/sampling.h"
-#include "scenes/procedural/path.hpp"
+#include "scenes/camera_path.hpp"
 
 namespace macula::frame {
 namespace {
@@ -88,8 +88,7 @@ scene::Camera camera_on_path(const scene::Scene& scene, std::uint32_t frame) {
     scene::Camera camera = scene.cameras.empty() ? scene::Camera{} : scene.cameras.front();
     if (scene.path.keys.empty())
         return camera;
-    const scene::procedural::Waypoint view =
-        scene::procedural::view_at(scene.path, static_cast<float>(frame));
+    const scene::CameraView view = scene::view_at(scene.path, static_cast<float>(frame));
     camera.eye = view.eye;
     camera.target = view.target;
     return camera;

@@ -61,6 +61,7 @@ void body(MeshBuilder& b, std::span<const Station4> stations, std::uint32_t pain
         const Station4& s = nose ? stations.back() : stations.front();
         const auto half = section(s);
         std::vector<glm::vec3> ring;
+        ring.reserve(2 * half.size());
         for (const glm::vec2& p : half)
             ring.emplace_back(p.x, p.y, s.z);
         for (std::size_t k = half.size(); k-- > 0;)
@@ -139,6 +140,7 @@ std::vector<Mesh> build_cars(Scene& scene, const CityPalette& p) {
          {"car_black", 0x23262a},
          {"taxi_yellow", 0xe2ae28}}};
     std::vector<Mesh> cars;
+    cars.reserve(kPaints.size() + 1);
     for (const auto& [name, colour] : kPaints)
         cars.push_back(car(name, kSaloon, 1.35f, -1.35f, add_paint(scene, name, colour), p));
     cars.push_back(car("van", kVan, 1.6f, -1.5f, add_paint(scene, "van_green", 0x486a58), p));
@@ -154,11 +156,13 @@ void place_cars(Scene& scene, std::uint32_t first_mesh, std::uint32_t count, Ran
         const std::uint32_t mesh = first_mesh + random.below(count);
         scene.instances.push_back({mesh, t, "car_" + std::to_string(scene.instances.size())});
     };
-    constexpr float kLane = 2.4f, kParked = 0.5f * kStreet - 1.25f;
+    constexpr float kSpace = 7.0f, kLane = 2.4f, kParked = 0.5f * kStreet - 1.25f;
     const auto line = [&](glm::vec3 start, glm::vec3 along_street, float length, float turns) {
         const glm::vec3 right = glm::cross(along_street, glm::vec3{0, 1, 0});
-        for (float at = 12.0f; at < length - 12.0f; at += 7.0f)
+        const int places = static_cast<int>((length - 24.0f) / kSpace) + 1;
+        for (int i = 0; i < places; ++i)
             for (const float side : {-1.0f, 1.0f}) {
+                const float at = 12.0f + kSpace * static_cast<float>(i);
                 const float heading = side > 0.0f ? turns : turns + 0.5f;
                 const float jitter = random.symmetric(0.6f);
                 const glm::vec3 here = start + along_street * (at + jitter);

@@ -23,11 +23,14 @@ void markings(MeshBuilder& b, const CityPalette& p, float length) {
                 {x - half, kPaint, z0}},
                p.marking);
     };
-    for (float z = 8.0f; z + 3.0f < length - 8.0f; z += 6.0f)
+    const int dashes = static_cast<int>((length - 19.0f) / 6.0f) + 1;
+    for (int i = 0; i < dashes; ++i) {
+        const float z = 8.0f + 6.0f * static_cast<float>(i);
         stripe(0.0f, 0.08f, z, z + 3.0f);
+    }
     for (const float z : {1.2f, length - 4.2f})
-        for (float x = -0.5f * kStreet + 0.8f; x < 0.5f * kStreet - 0.4f; x += 1.1f)
-            stripe(x, 0.28f, z, z + 3.0f);
+        for (int i = 0; i < 12; ++i)
+            stripe(1.1f * (static_cast<float>(i) - 5.5f), 0.28f, z, z + 3.0f);
     for (const float side : {-1.0f, 1.0f})
         stripe(side * (0.5f * kStreet - 2.4f), 0.05f, 8.0f, length - 8.0f);
 }
@@ -83,8 +86,9 @@ void furnish(MeshBuilder& b, const CityPalette& p, float length, Random& random)
         b.place.x = at.x * cs.x - at.z * cs.y;
         b.place.z = at.x * cs.y + at.z * cs.x;
     };
-    int slot = 0;
-    for (float x = 6.0f; x < length - 4.0f; x += 7.5f, ++slot) {
+    const int slots = static_cast<int>((length - 10.0f) / 7.5f) + 1;
+    for (int slot = 0; slot < slots; ++slot) {
+        const float x = 6.0f + 7.5f * static_cast<float>(slot);
         if (slot % 3 == 0) {
             put(x, -0.6f, 0.0f);
             street_lamp(b, p);

@@ -15,7 +15,10 @@ constexpr float kSharpCosine = 0.82f; // corners over about 35 degrees stay shar
 std::vector<glm::vec3> grid_normals(GridShape shape, std::span<const glm::vec3> points) {
     const int columns = shape.columns, rows = shape.rows;
     std::vector<glm::vec3> normals(points.size(), glm::vec3{0.0f});
-    const auto index = [&](int i, int j) { return static_cast<std::size_t>(j * columns + i); };
+    const auto index = [&](int i, int j) {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(i);
+    };
     for (int j = 0; j + 1 < rows; ++j)
         for (int i = 0; i + 1 < columns; ++i) {
             const glm::vec3 n = glm::cross(points[index(i + 1, j + 1)] - points[index(i, j)],

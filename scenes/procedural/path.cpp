@@ -75,18 +75,4 @@ CameraPath fly_through(std::span<const Waypoint> waypoints, bool closed) {
     return path;
 }
 
-Waypoint view_at(const CameraPath& path, float frame) {
-    const auto& keys = path.keys;
-    const float last = keys.back().frame;
-    frame = std::clamp(frame, keys.front().frame, last);
-    std::size_t i = 0;
-    while (i + 2 < keys.size() && keys[i + 1].frame <= frame)
-        ++i;
-    const CameraKey &a = keys[i == 0 ? 0 : i - 1], &b = keys[i], &c = keys[i + 1],
-                    &d = keys[std::min(i + 2, keys.size() - 1)];
-    const float t = (frame - b.frame) / (c.frame - b.frame);
-    return {spline(a.eye, b.eye, c.eye, d.eye, t),
-            spline(a.target, b.target, c.target, d.target, t)};
-}
-
 } // namespace macula::scene::procedural

@@ -17,7 +17,4 @@ inline constexpr std::uint32_t kPathFrames = 1000;
 // frame every 20 frames. `closed`: the last frame leads back to the first one.
 CameraPath fly_through(std::span<const Waypoint> waypoints, bool closed);
 
-// The path's view at `frame` (clamped to the path), Catmull-Rom between its keys.
-Waypoint view_at(const CameraPath& path, float frame);
-
 } // namespace macula::scene::procedural

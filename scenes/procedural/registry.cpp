@@ -46,6 +46,7 @@ std::optional<Scene> make(std::string_view name, const SceneParams& params) {
 
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all;
+    all.reserve(kScenes.size());
     for (const Entry& entry : kScenes)
         all.push_back(entry.name);
     return all;

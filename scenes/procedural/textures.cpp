@@ -1,6 +1,7 @@
 #include "scenes/procedural/textures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -12,7 +13,8 @@ namespace macula::scene::procedural {
 namespace {
 
 std::uint8_t encode(float x) {
-    return static_cast<std::uint8_t>(glm::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
+    const float scaled = std::floor(glm::clamp(x, 0.0f, 1.0f) * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(scaled);
 }
 
 void put(Image& image, std::size_t texel, glm::vec3 colour, float alpha) {

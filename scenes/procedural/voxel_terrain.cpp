@@ -113,7 +113,7 @@ void plant_tree(VoxelGrid& grid, int x, int y, int z, Random& random) {
                                                 : Block::oak_leaves;
     const int trunk = pine ? random.between(6, 9) : random.between(4, 6);
     grid.fill({x, y, z}, {x, y + trunk - 1, z}, Block::log);
-    const int low = pine ? 2 : trunk - 2, high = pine ? trunk + 2 : trunk + 2;
+    const int low = pine ? 2 : trunk - 2, high = trunk + 2;
     for (int dy = low; dy <= high; ++dy) {
         const float reach = pine ? 0.4f + 0.42f * static_cast<float>(high - dy) *
                                               ((high - dy) % 2 == 0 ? 0.75f : 1.0f)

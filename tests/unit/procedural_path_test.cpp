@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/procedural/path.hpp"
+#include "scenes/camera_path.hpp"
 #include "scenes/procedural/registry.hpp"
 
 namespace macula::scene::procedural {
@@ -72,7 +72,7 @@ class Viewpoints {
 
   private:
     static std::uint64_t key(glm::ivec3 c) {
-        const auto bits = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)); };
+        const auto bits = [](int v) { return static_cast<std::uint64_t>(v) + (1u << 20); };
         return bits(c.x) | bits(c.y) << 21 | bits(c.z) << 42;
     }
     void measure(std::size_t i, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
@@ -140,7 +140,7 @@ TEST_P(ProceduralPath, LooksSomewhereAndTurnsSmoothly) {
     const Scene& scene = scene_of(GetParam());
     glm::vec3 last{0.0f};
     for (int i = 0; i <= 1000; ++i) {
-        const Waypoint view = view_at(scene.path, static_cast<float>(i));
+        const CameraView view = view_at(scene.path, static_cast<float>(i));
         const glm::vec3 gaze = view.target - view.eye;
         ASSERT_GT(glm::length(gaze), 1e-3f) << "frame " << i;
         const glm::vec3 direction = glm::normalize(gaze);

@@ -6,7 +6,7 @@
 
 #include "scenes/load.hpp"
 #include "scenes/occupancy.hpp"
-#include "scenes/procedural/path.hpp"
+#include "scenes/camera_path.hpp"
 
 namespace macula::scene {
 namespace {
@@ -40,7 +40,7 @@ TEST_P(Bundled, FliesThroughFreeSpaceForAThousandFrames) {
     const Occupancy grid(scene, 256);
     glm::vec3 before = scene.path.keys.front().eye;
     for (int frame = 1; frame < 1000; ++frame) {
-        const auto view = procedural::view_at(scene.path, static_cast<float>(frame));
+        const auto view = view_at(scene.path, static_cast<float>(frame));
         ASSERT_FALSE(grid.solid(view.eye)) << "frame " << frame;
         const float step = glm::distance(before, view.eye);
         EXPECT_LT(step, 0.02f * grid.bounds().diagonal()) << "frame " << frame;
