@@ -82,6 +82,13 @@ bool traverse(std::span<const shared::BinaryNode> nodes, int root, const TraceRa
 }
 
 // True when the query is answered: at the first hit if `any`.
+TraceHit result_of(TraceHit hit) {
+    hit.t = shared::unsigned_zero(hit.t);
+    hit.u = shared::unsigned_zero(hit.u);
+    hit.v = shared::unsigned_zero(hit.v);
+    return hit;
+}
+
 bool trace(const Ray& ray, const ReferenceScene& scene, bool any, TraceHit& best) {
     if (!shared::ray_is_active(ray.t_min, ray.t_max))
         return false;
@@ -111,7 +118,7 @@ TraceHit closest_by_brute_force(const Ray& ray, std::span<const Geometry> geomet
                                 const shared::MaskTables& masks) {
     TraceHit best = shared::no_hit(ray.t_max);
     if (!shared::ray_is_active(ray.t_min, ray.t_max))
-        return best;
+        return result_of(best);
     const TraceRay world = world_ray(ray);
     for (const shared::Instance& instance : instances) {
         Visit visit(ray, instance, masks);
@@ -126,13 +133,13 @@ TraceHit closest_by_brute_force(const Ray& ray, std::span<const Geometry> geomet
             visit.test(corner(0), corner(1), corner(2), masked ? i | MACULA_MASKED_BIT : i, best);
         }
     }
-    return best;
+    return result_of(best);
 }
 
 TraceHit closest(const Ray& ray, const ReferenceScene& scene) {
     TraceHit best = shared::no_hit(ray.t_max);
     trace(ray, scene, false, best);
-    return best;
+    return result_of(best);
 }
 
 bool occluded(const Ray& ray, const ReferenceScene& scene) {

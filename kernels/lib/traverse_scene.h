@@ -8,27 +8,7 @@
 
 #include "lib/traverse_binary.h"
 #include "lib/traverse_query.h"
-
-/* A ray as it lies in the queue: the instances' transforms start from these values. */
-typedef struct QueuedRay {
-    float ox, oy, oz, t_min;
-    float dx, dy, dz, t_max;
-} QueuedRay;
-
-static inline QueuedRay load_ray(global const RayBlock* rays, uint i) {
-    global const RayBlock* block = rays + i / MACULA_RAY_BLOCK;
-    const uint lane = i % MACULA_RAY_BLOCK;
-    QueuedRay r;
-    r.ox = block->origin_x[lane];
-    r.oy = block->origin_y[lane];
-    r.oz = block->origin_z[lane];
-    r.t_min = block->t_min[lane];
-    r.dx = block->direction_x[lane];
-    r.dy = block->direction_y[lane];
-    r.dz = block->direction_z[lane];
-    r.t_max = block->t_max[lane];
-    return r;
-}
+#include "lib/traverse_queue.h"
 
 #if MACULA_INSTANCES
 static inline bool traverse_instance(const TraceScene* scene, TraceQuery* query,
@@ -72,19 +52,6 @@ static inline void traverse_scene(const TraceScene* scene, TraceQuery* query,
     traverse_lower(scene, query, scene->instances[0].root);
 }
 #endif
-
-static inline void store_result(global uint* results, uint i, const TraceHit* best) {
-#if MACULA_ANY_HIT
-    results[i] = best->triangle != MACULA_NO_TRIANGLE ? 1u : 0u;
-#else
-    global HitBlock* block = (global HitBlock*)results + i / MACULA_RAY_BLOCK;
-    const uint lane = i % MACULA_RAY_BLOCK;
-    block->t[lane] = best->t;
-    block->u[lane] = best->u;
-    block->v[lane] = best->v;
-    block->triangle[lane] = best->triangle;
-#endif
-}
 
 static inline void trace_ray(const TraceScene* scene, global const RayBlock* rays, uint i,
                              global uint* results) {

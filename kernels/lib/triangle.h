@@ -45,6 +45,12 @@ MACULA_INLINE TraceHit no_hit(float t_max) {
     return h;
 }
 
+/* Conforming devices may differ in which of +0 and -0 a maximum or minimum is, so no result keeps
+ * the sign of a zero. */
+MACULA_INLINE float unsigned_zero(float x) {
+    return as_uint(x) == 0x80000000u ? 0.0f : x;
+}
+
 /* The total order of hits: least t, then least triangle id. */
 MACULA_INLINE bool is_closer(float t, uint triangle, const TraceHit* best) {
     return t < best->t || (t == best->t && triangle < best->triangle);
