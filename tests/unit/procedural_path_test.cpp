@@ -1,7 +1,6 @@
 // No fly-through comes near a surface, and no default camera stands in one.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -96,27 +95,8 @@ void approach_all(Viewpoints& views, const Scene& scene) {
     }
 }
 
-struct Case {
-    const char* name;
-    std::uint32_t size;
-    float clearance; // scene units
-};
-
-// Each scene is made once for all tests.
-const Scene& scene_of(const Case& wanted) {
-    static std::map<std::string, Scene> known;
-    const std::string key = wanted.name + std::to_string(wanted.size);
-    if (!known.contains(key))
-        known.emplace(key, *make(wanted.name, {1, wanted.size}));
-    return known.at(key);
-}
-
-class ProceduralPath : public testing::TestWithParam<Case> {};
-
-TEST_P(ProceduralPath, KeepsClearOfAllSurfaces) {
-    const Case& wanted = GetParam();
-    const Scene& scene = scene_of(wanted);
-    Viewpoints views(2.0f * wanted.clearance);
+void keeps_clear_of_all_surfaces(const Scene& scene, float clearance) {
+    Viewpoints views(2.0f * clearance);
     // Dense enough that no surface fits between two of them unseen.
     glm::vec3 last = view_at(scene.path, 0.0f).eye;
     float longest_step = 0.0f;
@@ -127,17 +107,16 @@ TEST_P(ProceduralPath, KeepsClearOfAllSurfaces) {
         views.add(eye);
         last = eye;
     }
-    ASSERT_LT(longest_step, wanted.clearance);
+    ASSERT_LT(longest_step, clearance);
     approach_all(views, scene);
     const auto [distance, index] = views.least();
     const float frame = static_cast<float>(index) / kSubsteps;
     const glm::vec3 eye = view_at(scene.path, frame).eye;
-    EXPECT_GE(distance, wanted.clearance)
+    EXPECT_GE(distance, clearance)
         << "frame " << frame << " at " << eye.x << ' ' << eye.y << ' ' << eye.z;
 }
 
-TEST_P(ProceduralPath, LooksSomewhereAndTurnsSmoothly) {
-    const Scene& scene = scene_of(GetParam());
+void looks_somewhere_and_turns_smoothly(const Scene& scene) {
     glm::vec3 last{0.0f};
     for (int i = 0; i <= 1000; ++i) {
         const CameraView view = view_at(scene.path, static_cast<float>(i));
@@ -150,12 +129,26 @@ TEST_P(ProceduralPath, LooksSomewhereAndTurnsSmoothly) {
     }
 }
 
-TEST_P(ProceduralPath, DefaultCameraStandsInFreeSpace) {
-    const Scene& scene = scene_of(GetParam());
-    Viewpoints views(2.0f * GetParam().clearance);
+void default_camera_stands_in_free_space(const Scene& scene, float clearance) {
+    Viewpoints views(2.0f * clearance);
     views.add(scene.cameras.at(0).eye);
     approach_all(views, scene);
-    EXPECT_GE(views.least().first, GetParam().clearance);
+    EXPECT_GE(views.least().first, clearance);
+}
+
+struct Case {
+    const char* name;
+    std::uint32_t size;
+    float clearance; // scene units
+};
+
+class ProceduralPath : public testing::TestWithParam<Case> {};
+
+TEST_P(ProceduralPath, IsClearAndSmooth) {
+    const Scene scene = *make(GetParam().name, {1, GetParam().size});
+    keeps_clear_of_all_surfaces(scene, GetParam().clearance);
+    looks_somewhere_and_turns_smoothly(scene);
+    default_camera_stands_in_free_space(scene, GetParam().clearance);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ProceduralPath,
