@@ -47,9 +47,9 @@ class VariantRun {
     // Enqueues the query of the set's class and waits. `prefix`: only the first so many rays.
     RunTime run(DeviceRays& rays, std::optional<std::uint32_t> prefix = std::nullopt);
 
-    // Runs growing prefixes, twice each (the first launch may compile), then all. Gives the reason,
-    // a sentence without a full stop, as soon as `runs` runs of all rays would take longer than
-    // `limit_seconds`; nothing when they will not.
+    // Runs growing prefixes and then all, each twice (the first launch may compile). Gives the
+    // reason, a sentence without a full stop, when the kernel does not build on this device, and
+    // as soon as `runs` runs of all rays would take longer than `limit_seconds`; else nothing.
     std::optional<std::string> warm_up(DeviceRays& rays, std::uint32_t runs, double limit_seconds);
 
     const kernel::Choice& choice() const { return choice_; }

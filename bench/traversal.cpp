@@ -39,7 +39,12 @@ class SceneRun {
         std::vector<Contestant> contestants = select(ray_class);
         for (Contestant& c : contestants)
             prepare(c, device_rays, progress);
-        measure(rays, device_rays, contestants);
+        const bool any_runs = std::any_of(contestants.begin(), contestants.end(),
+                                          [](const Contestant& c) { return c.run != nullptr; });
+        if (any_runs)
+            measure(rays, device_rays, contestants);
+        for (Contestant& c : contestants)
+            report_.records.push_back(std::move(c.record));
     }
 
   private:
@@ -131,8 +136,6 @@ class SceneRun {
         const std::size_t best = fill_embree(rays, series, contestants);
         for (std::size_t i = 0; i < running.size(); ++i)
             fill(running[i]->record, rays, series[kEmbreeCalls.size() + i], series[best]);
-        for (Contestant& c : contestants)
-            report_.records.push_back(std::move(c.record));
     }
 
     // Everything is held against the reference bit for bit, and the reference against Embree; a
