@@ -73,7 +73,8 @@ static inline void fetch_child(const TraceScene *scene, int child) {
 
 #if MACULA_ANY_HIT
 /* The child with most rays is visited first. */
-static inline void push_children(const TraceScene *scene, global const Wide8Node *node, StreamChildren found,
+static inline void push_children(const TraceScene *scene, global const Wide8Node *node,
+                                 StreamChildren found,
                                  StreamStack *stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     if (lanes == 0ul)
@@ -98,7 +99,8 @@ static inline void push_children(const TraceScene *scene, global const Wide8Node
 }
 #else
 /* The nearest child is visited first. */
-static inline void push_children(const TraceScene *scene, global const Wide8Node *node, StreamChildren found,
+static inline void push_children(const TraceScene *scene, global const Wide8Node *node,
+                                 StreamChildren found,
                                  StreamStack *stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     const uint base = stack->depth;

@@ -10,7 +10,7 @@
 #define ITEMS 16u /* consecutive elements of one work-item */
 #define TILE (MACULA_WORK_GROUP * ITEMS)
 
-/* Elements of a level. `capacity` bounds the count, so that a wrong one stays inside the buffers. */
+/* Elements of a level. `capacity` bounds the count: a wrong one stays inside the buffers. */
 static inline uint level_count(global const uint *count, uint capacity, uint level) {
     uint n = min(*count, capacity);
     for (uint i = 0u; i < level; ++i)
