@@ -13,17 +13,24 @@ typedef struct QueuedPacket {
     float16 dx, dy, dz, t_max;
 } QueuedPacket;
 
-/* TraceRay, sixteen times. t_max is the bound for culling: -1 in a lane that is inactive, that
- * misses the instance being traversed or whose any-hit query is answered. */
+/* The least and greatest values of the lanes. */
+typedef struct PacketBounds {
+    float o_lo[3], o_hi[3]; /* origin */
+    float d_lo[3], d_hi[3]; /* bounded direction */
+    float t_min, t_max;
+} PacketBounds;
+
+/* TraceRay, sixteen times; vectors are [axis]. t_max is the bound for culling: -1 in a lane that is
+ * inactive, that misses the instance being traversed or whose any-hit query is answered. */
 typedef struct Packet {
     float16 o[3];
-    float16 t_min, t_max;
-    float16 rx, ry, rz, nx, ny, nz;
-    float16 qx, qy, qz, fx, fy, fz;
+    float16 r[3], n[3]; /* near planes */
+    float16 q[3], f[3]; /* far planes */
     float16 sx, sy, sz;
-    int16 kz;
+    float16 t_min, t_max;
+    int16 kz;    /* of no meaning when all lanes have the same one */
     uint axes;   /* bit k: some lane has kz = k */
-    uint octant; /* that of all lanes; of no meaning when mixed */
+    uint octant; /* of all lanes; an axis with directions of both signs has bit 0 */
     bool mixed;  /* the lanes have several octants */
 } Packet;
 
@@ -59,84 +66,111 @@ static inline float16 pick_axis16(int16 axis, float16 x, float16 y, float16 z) {
     return axis == 0 ? x : (axis == 1 ? y : z);
 }
 
-/* The octants of the lanes, and the axes along which they are dominant. */
-static inline void classify_packet(Packet *p, float16 dx, float16 dy, float16 dz) {
-    const float16 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
-    const int16 is_x = (ax >= ay) & (ax >= az);
-    p->kz = is_x ? (int16)(0) : (ay >= az ? (int16)(1) : (int16)(2));
+static inline PacketBounds bound_packet(const float16 o[3], const float16 d[3], float16 t_min,
+                                        float16 t_max) {
+    const float16 up[8] = {o[0], o[1], o[2], d[0], d[1], d[2], t_min, t_min};
+    const float16 down[8] = {-o[0], -o[1], -o[2], -d[0], -d[1], -d[2], -t_max, -t_max};
+    float lo[8], hi[8];
+    vstore8(least_lanes16(up), 0, lo);
+    vstore8(-least_lanes16(down), 0, hi);
+    PacketBounds b;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        b.o_lo[axis] = lo[axis];
+        b.o_hi[axis] = hi[axis];
+        b.d_lo[axis] = lo[3u + axis];
+        b.d_hi[axis] = hi[3u + axis];
+    }
+    b.t_min = lo[6];
+    b.t_max = hi[6];
+    return b;
+}
+
+static inline void classify_octants(Packet *p, const PacketBounds *b) {
+    p->octant = 0u;
+    p->mixed = false;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        p->octant |= b->d_hi[axis] < 0.0f ? 1u << axis : 0u;
+        p->mixed |= b->d_lo[axis] < 0.0f && b->d_hi[axis] > 0.0f;
+    }
+}
+
+/* The dominant axis that the bounds show all lanes to have, or 3. */
+static inline uint common_axis(const PacketBounds *b) {
+    float least[3], greatest[3];
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        least[axis] = m_max(m_max(b->d_lo[axis], -b->d_hi[axis]), 0.0f);
+        greatest[axis] = m_max(-b->d_lo[axis], b->d_hi[axis]);
+    }
+    if (least[0] >= greatest[1] && least[0] >= greatest[2])
+        return 0u;
+    if (least[1] > greatest[0] && least[1] >= greatest[2])
+        return 1u;
+    return least[2] > greatest[0] && least[2] > greatest[1] ? 2u : 3u;
+}
+
+static inline void shear_packet(Packet *p, const float16 d[3], const PacketBounds *b) {
+    const uint kz = common_axis(b);
+    if (kz < 3u) {
+        const uint kx = kz == 2u ? 0u : kz + 1u, ky = kx == 2u ? 0u : kx + 1u;
+        p->axes = 1u << kz;
+        p->sz = p->r[kz];
+        p->sx = d[kx] * p->sz;
+        p->sy = d[ky] * p->sz;
+        return;
+    }
+    const float16 ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
+    p->kz = (ax >= ay) & (ax >= az) ? (int16)(0) : (ay >= az ? (int16)(1) : (int16)(2));
     p->axes = (any_lane16(p->kz == 0) ? 1u : 0u) | (any_lane16(p->kz == 1) ? 2u : 0u) |
               (any_lane16(p->kz == 2) ? 4u : 0u);
-    const bool some_x = any_lane16(dx < 0.0f), all_x = !any_lane16(dx >= 0.0f);
-    const bool some_y = any_lane16(dy < 0.0f), all_y = !any_lane16(dy >= 0.0f);
-    const bool some_z = any_lane16(dz < 0.0f), all_z = !any_lane16(dz >= 0.0f);
-    p->mixed = some_x != all_x || some_y != all_y || some_z != all_z;
-    p->octant = (all_x ? 1u : 0u) | (all_y ? 2u : 0u) | (all_z ? 4u : 0u);
+    p->sz = pick_axis16(p->kz, p->r[0], p->r[1], p->r[2]);
+    p->sx = pick_axis16(p->kz, d[1], d[2], d[0]) * p->sz;
+    p->sy = pick_axis16(p->kz, d[2], d[0], d[1]) * p->sz;
 }
 
 /* make_trace_ray. */
-static inline Packet make_packet(float16 ox, float16 oy, float16 oz, float16 dx, float16 dy,
-                                 float16 dz, float16 t_min, float16 t_max) {
-    Packet p;
-    dx = bounded_direction16(dx);
-    dy = bounded_direction16(dy);
-    dz = bounded_direction16(dz);
-    p.o[0] = ox;
-    p.o[1] = oy;
-    p.o[2] = oz;
-    p.t_min = t_min;
-    p.t_max = t_max;
-    p.rx = m_divide16(1.0f, dx);
-    p.ry = m_divide16(1.0f, dy);
-    p.rz = m_divide16(1.0f, dz);
-    const float16 px = ox * p.rx, py = oy * p.ry, pz = oz * p.rz;
-    const float16 reach =
-        m_max16(m_max16(fabs(ox), fabs(oy)), m_max16(fabs(oz), (float16)(0x1p-20f)));
+static inline PacketBounds make_packet(const QueuedPacket *q, Packet *p) {
+    const float16 d[3] = {bounded_direction16(q->dx), bounded_direction16(q->dy),
+                          bounded_direction16(q->dz)};
+    p->o[0] = q->ox;
+    p->o[1] = q->oy;
+    p->o[2] = q->oz;
+    p->t_min = q->t_min;
+    p->t_max = q->t_max;
+    const float16 reach = m_max16(m_max16(fabs(q->ox), fabs(q->oy)),
+                                  m_max16(fabs(q->oz), (float16)(0x1p-20f)));
     const float16 margin = MACULA_RAY_MARGIN * reach;
-    p.nx = fma(fabs(p.rx), -margin, -px);
-    p.ny = fma(fabs(p.ry), -margin, -py);
-    p.nz = fma(fabs(p.rz), -margin, -pz);
-    p.qx = p.rx * MACULA_FAR_SCALE;
-    p.qy = p.ry * MACULA_FAR_SCALE;
-    p.qz = p.rz * MACULA_FAR_SCALE;
-    p.fx = fma(fabs(p.rx), margin, -px) * MACULA_FAR_SCALE;
-    p.fy = fma(fabs(p.ry), margin, -py) * MACULA_FAR_SCALE;
-    p.fz = fma(fabs(p.rz), margin, -pz) * MACULA_FAR_SCALE;
-    classify_packet(&p, dx, dy, dz);
-    p.sz = pick_axis16(p.kz, p.rx, p.ry, p.rz);
-    p.sx = pick_axis16(p.kz, dy, dz, dx) * p.sz;
-    p.sy = pick_axis16(p.kz, dz, dx, dy) * p.sz;
-    return p;
-}
-
-/* box_interval of the box that is the same for all lanes, given as near and far planes. */
-static inline int16 enter_planes16(const Packet *p, float near_x, float near_y, float near_z,
-                                   float far_x, float far_y, float far_z) {
-    const float16 near =
-        m_max16(m_max16(fma((float16)(near_x), p->rx, p->nx), fma((float16)(near_y), p->ry, p->ny)),
-                m_max16(fma((float16)(near_z), p->rz, p->nz), p->t_min));
-    const float16 far =
-        m_min16(m_min16(fma((float16)(far_x), p->qx, p->fx), fma((float16)(far_y), p->qy, p->fy)),
-                m_min16(fma((float16)(far_z), p->qz, p->fz), p->t_max));
-    return near <= far;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float16 r = m_divide16((float16)(1.0f), d[axis]);
+        const float16 at_plane_0 = p->o[axis] * r;
+        p->r[axis] = r;
+        p->n[axis] = fma(fabs(r), -margin, -at_plane_0);
+        p->q[axis] = r * MACULA_FAR_SCALE;
+        p->f[axis] = fma(fabs(r), margin, -at_plane_0) * MACULA_FAR_SCALE;
+    }
+    const PacketBounds b = bound_packet(p->o, d, q->t_min, q->t_max);
+    classify_octants(p, &b);
+    shear_packet(p, d, &b);
+    return b;
 }
 
 /* box_interval, each lane picking its planes by its own octant. */
-static inline void box_interval16(const Packet *p, float lo_x, float lo_y, float lo_z, float hi_x,
-                                  float hi_y, float hi_z, float16 *near, float16 *far) {
-    const float16 lx = lo_x, ly = lo_y, lz = lo_z, hx = hi_x, hy = hi_y, hz = hi_z;
-    const int16 sx = p->rx < 0.0f, sy = p->ry < 0.0f, sz = p->rz < 0.0f;
-    const float16 nx = fma(sx ? hx : lx, p->rx, p->nx), fx = fma(sx ? lx : hx, p->qx, p->fx);
-    const float16 ny = fma(sy ? hy : ly, p->ry, p->ny), fy = fma(sy ? ly : hy, p->qy, p->fy);
-    const float16 nz = fma(sz ? hz : lz, p->rz, p->nz), fz = fma(sz ? lz : hz, p->qz, p->fz);
-    *near = m_max16(m_max16(nx, ny), m_max16(nz, p->t_min));
-    *far = m_min16(m_min16(fx, fy), fz);
+static inline void box_interval16(const Packet *p, const float lo[3], const float hi[3],
+                                  float16 *near, float16 *far) {
+    float16 n[3], f[3];
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float16 below = lo[axis], above = hi[axis];
+        const int16 negative = p->r[axis] < 0.0f;
+        n[axis] = fma(negative ? above : below, p->r[axis], p->n[axis]);
+        f[axis] = fma(negative ? below : above, p->q[axis], p->f[axis]);
+    }
+    *near = m_max16(m_max16(n[0], n[1]), m_max16(n[2], p->t_min));
+    *far = m_min16(m_min16(f[0], f[1]), f[2]);
 }
 
-/* The lanes that enter a box and are not beyond their t_max in it. */
-static inline int16 enter_box16(const Packet *p, float lo_x, float lo_y, float lo_z, float hi_x,
-                                float hi_y, float hi_z) {
+/* The lanes that enter a box no later than their t_max. */
+static inline int16 enter_box16(const Packet *p, const float lo[3], const float hi[3]) {
     float16 near, far;
-    box_interval16(p, lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, &near, &far);
+    box_interval16(p, lo, hi, &near, &far);
     return near <= m_min16(far, p->t_max);
 }
 

@@ -5,6 +5,11 @@
 #include "lib/packet_instances.h"
 #include "lib/wide_single.h"
 
+/* unsigned_zero of lib/triangle.h. */
+static inline float16 unsigned_zero16(float16 x) {
+    return as_uint16(x) == (uint16)(0x80000000u) ? (float16)(0.0f) : x;
+}
+
 static inline void store_packet(global uint *results, uint first, uint count,
                                 const PacketHit *best) {
     const uint lanes = count - first < MACULA_RAY_BLOCK ? count - first : MACULA_RAY_BLOCK;
@@ -17,9 +22,9 @@ static inline void store_packet(global uint *results, uint first, uint count,
             results[first + i] = ((const uint *)&hit)[i];
 #else
     global HitBlock *block = (global HitBlock *)results + first / MACULA_RAY_BLOCK;
-    vstore16(best->t, 0, block->t);
-    vstore16(best->u, 0, block->u);
-    vstore16(best->v, 0, block->v);
+    vstore16(unsigned_zero16(best->t), 0, block->t);
+    vstore16(unsigned_zero16(best->u), 0, block->u);
+    vstore16(unsigned_zero16(best->v), 0, block->v);
     vstore16(best->triangle, 0, block->triangle);
 #endif
 }
@@ -33,32 +38,33 @@ static inline PacketHit no_hit16(float16 t_max) {
     return h;
 }
 
-/* How much the directions of a packet may differ, relative to the largest component. */
+/* How much the directions of a packet may differ, relative to their greatest component. */
 #ifndef MACULA_COHERENT_SPREAD
 #define MACULA_COHERENT_SPREAD 0.2f
 #endif
 
-/* True where tracing the lanes together saves work. */
-static inline bool is_coherent16(const QueuedPacket *q) {
-    const float16 ax = fabs(q->dx), ay = fabs(q->dy), az = fabs(q->dz);
-    const float size = greatest_lane16(m_max16(m_max16(ax, ay), az));
-    const float spread = (greatest_lane16(q->dx) - least_lane16(q->dx)) +
-                         (greatest_lane16(q->dy) - least_lane16(q->dy)) +
-                         (greatest_lane16(q->dz) - least_lane16(q->dz));
-    return spread <= MACULA_COHERENT_SPREAD * size;
+#ifndef MACULA_WIDE_SPREAD
+#define MACULA_WIDE_SPREAD 0.02f
+#endif
+
+static inline float spread_of(const PacketBounds *b) {
+    float size = 0.0f, spread = 0.0f;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        size = m_max(size, m_max(-b->d_lo[axis], b->d_hi[axis]));
+        spread += b->d_hi[axis] - b->d_lo[axis];
+    }
+    return m_divide(spread, size);
 }
 
+static inline void trace_coherent(const TraceScene *scene, const QueuedPacket *q, Packet *p,
+                                  const PacketBounds *bounds, PacketHit *best) {
 #if MACULA_INSTANCES
-static inline void trace_coherent(const TraceScene *scene, const QueuedPacket *q, PacketHit *best) {
-    traverse_instances16(scene, q, best);
-}
+    traverse_instances16(scene, q, p, best);
 #else
-static inline void trace_coherent(const TraceScene *scene, const QueuedPacket *q, PacketHit *best) {
-    Packet p = make_packet(q->ox, q->oy, q->oz, q->dx, q->dy, q->dz, q->t_min, q->t_max);
     const PacketInstance instance = instance_of(scene->instances);
-    traverse_packet(scene, &instance, &p, best, scene->instances[0].root);
-}
+    traverse_packet(scene, &instance, p, bounds, best, scene->instances[0].root);
 #endif
+}
 
 static inline void trace_packet(const TraceScene *scene, global const RayBlock *rays, uint first,
                                 uint count, global uint *results) {
@@ -66,11 +72,13 @@ static inline void trace_packet(const TraceScene *scene, global const RayBlock *
     PacketHit best = no_hit16(vload16(0, block->t_max));
     QueuedPacket q;
     if (load_packet(block, count - first, &q)) {
-        if (!is_coherent16(&q)) {
+        Packet p;
+        const PacketBounds bounds = make_packet(&q, &p);
+        if (spread_of(&bounds) > MACULA_COHERENT_SPREAD) {
             trace_single_rays(scene, rays, first, count, results);
             return;
         }
-        trace_coherent(scene, &q, &best);
+        trace_coherent(scene, &q, &p, &bounds, &best);
     }
     store_packet(results, first, count, &best);
 }

@@ -3,53 +3,85 @@
 #define MACULA_LIB_PACKET_TRAVERSE_H
 
 #include "lib/packet_frustum.h"
-#include "lib/wide_stack.h"
 #include "lib/packet_triangle.h"
+#include "lib/wide_stack.h"
 
-static inline bool some_lane_enters(const Packet *p, global const Wide8Node *node, uint i) {
-    const uint sx = p->octant & 1u, sy = (p->octant >> 1) & 1u, sz = p->octant >> 2;
-    const int16 enters =
-        p->mixed ? enter_box16(p, node->plane[0][0][i], node->plane[1][0][i], node->plane[2][0][i],
-                               node->plane[0][1][i], node->plane[1][1][i], node->plane[2][1][i])
-                 : enter_planes16(p, node->plane[0][sx][i], node->plane[1][sy][i],
-                                  node->plane[2][sz][i], node->plane[0][sx ^ 1u][i],
-                                  node->plane[1][sy ^ 1u][i], node->plane[2][sz ^ 1u][i]);
-    return any_lane16(enters);
+/* The planes of a box as the lanes of a packet of one octant test them. Far planes are moved away
+ * by more than twice what a lane pads, so that no lane's own far planes are needed to cull no box
+ * that the lane enters. */
+typedef struct BoxPlanes {
+    float near[3], far[3];
+} BoxPlanes;
+
+static inline BoxPlanes box_planes(global const Wide8Node *node, uint i, uint octant,
+                                   float margin) {
+    BoxPlanes box;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const uint side = (octant >> axis) & 1u;
+        const float pad = 2.0f * margin;
+        box.near[axis] = node->plane[axis][side][i];
+        box.far[axis] = node->plane[axis][side ^ 1u][i] + (side != 0u ? -pad : pad);
+    }
+    return box;
 }
 
-static inline void push_children16(const TraceScene *scene, const Packet *p, const Frustum *f,
-                                   global const Wide8Node *node, WideStack *stack) {
-    const WidePlanes planes = load_planes(node, f->octant);
+/* True when some lane may enter the box no later than its t_max. */
+static inline bool may_enter(const Packet *p, float t_min, const BoxPlanes *box) {
+    const float16 near = m_max16(m_max16(fma((float16)(box->near[0]), p->r[0], p->n[0]),
+                                         fma((float16)(box->near[1]), p->r[1], p->n[1])),
+                                 m_max16(fma((float16)(box->near[2]), p->r[2], p->n[2]),
+                                         (float16)(t_min)));
+    const float16 far = m_min16(m_min16(fma((float16)(box->far[0]), p->r[0], p->n[0]),
+                                        fma((float16)(box->far[1]), p->r[1], p->n[1])),
+                                fma((float16)(box->far[2]), p->r[2], p->n[2]));
+    return any_lane16(near <= m_min16(far * MACULA_FRUSTUM_GROW, p->t_max));
+}
+
+/* The same for lanes of several octants. */
+static inline bool may_enter_mixed(const Packet *p, global const Wide8Node *node, uint i) {
+    const float lo[3] = {node->plane[0][0][i], node->plane[1][0][i], node->plane[2][0][i]};
+    const float hi[3] = {node->plane[0][1][i], node->plane[1][1][i], node->plane[2][1][i]};
+    return any_lane16(enter_box16(p, lo, hi));
+}
+
+static inline uint push_children16(const TraceScene *scene, const Packet *p, const Frustum *f,
+                                   global const Wide8Node *node, WideStack *stack, uint depth) {
+    const WidePlanes planes = load_planes(node, p->octant);
     float8 near;
-    ulong lanes = lane_mask8(enter_frustum8(f, &planes, &near));
-    const uint base = stack->depth;
+    ulong lanes = lane_mask8(enter_frustum8(f, p->mixed, &planes, &near));
+    const uint base = depth;
     while (lanes != 0ul) {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
-        if (some_lane_enters(p, node, i)) {
+        const BoxPlanes box = box_planes(node, i, p->octant, f->margin);
+        if (p->mixed ? may_enter_mixed(p, node, i) : may_enter(p, f->t_min, &box)) {
             fetch_child_single(scene, node->child[i]);
-            push_child(stack, base, node->child[i], ((const float *)&near)[i]);
+            depth = push_child(stack, base, depth, node->child[i], ((const float *)&near)[i]);
         }
     }
+    return depth;
 }
 
+/* The bound for culling after hits; negative when all lanes are done. */
+static inline float bound_t_max(const Packet *p) { return greatest_lane16(p->t_max); }
+
 static inline void traverse_packet(const TraceScene *scene, const PacketInstance *instance,
-                                   Packet *p, PacketHit *best, int root) {
+                                   Packet *p, const PacketBounds *bounds, PacketHit *best,
+                                   int root) {
     global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
-    Frustum f = make_frustum(p);
+    Frustum f = make_frustum(bounds);
     WideStack stack;
-    stack.depth = 0u;
-    push_child(&stack, 0u, root, 0.0f);
-    while (stack.depth != 0u) {
-        const int node = stack.child[--stack.depth];
+    uint depth = push_child(&stack, 0u, 0u, root, 0.0f);
+    while (depth != 0u) {
+        const int node = stack.child[--depth];
 #if !MACULA_ANY_HIT
-        if (stack.near[stack.depth] > f.t_max)
+        if (stack.near[depth] > f.t_max)
             continue;
 #endif
         if (node >= 0) {
-            push_children16(scene, p, &f, nodes + node, &stack);
+            depth = push_children16(scene, p, &f, nodes + node, &stack, depth);
         } else if (test_leaf16(scene, instance, p, best, node)) {
-            bound_t_max(&f, p);
+            f.t_max = bound_t_max(p);
             if (f.t_max < 0.0f)
                 return;
         }

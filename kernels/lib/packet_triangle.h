@@ -30,24 +30,27 @@ static inline float16 difference_of_products16(float16 a, float16 b, float16 c, 
 /* What the edge test leaves for the rest of the test. */
 typedef struct PacketEdges {
     float16 wa, wb, wc;
-    float16 az, bz, cz; /* of the vertices from the origin, along the dominant axis */
+    float16 az, bz, cz; /* of the origin from the vertices, along the dominant axis */
 } PacketEdges;
 
-/* The lanes with dominant axis kz whose line crosses the triangle. (An edge function that is not 0
+/* The lanes with dominant axis kz whose line crosses the triangle. Differences are taken the other
+ * way around than in intersect_triangle, since the broadcast of a vertex is then part of the
+ * subtraction: sheared coordinates change their sign, and the edge functions stay the same. (An
+ * edge function that is not 0
  * makes the determinant not 0, since all have the same sign.) */
 static inline int16 cross_edges(const Packet *p, global const Triangle *tri, uint kz,
                                 PacketEdges *e) {
     const uint kx = kz == 2u ? 0u : kz + 1u, ky = kx == 2u ? 0u : kx + 1u;
     const float16 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
-    e->az = (float16)(tri->v0[kz]) - oz;
-    e->bz = (float16)(tri->v1[kz]) - oz;
-    e->cz = (float16)(tri->v2[kz]) - oz;
-    const float16 ax = snap_tiny16(fma(-p->sx, e->az, (float16)(tri->v0[kx]) - ox));
-    const float16 ay = snap_tiny16(fma(-p->sy, e->az, (float16)(tri->v0[ky]) - oy));
-    const float16 bx = snap_tiny16(fma(-p->sx, e->bz, (float16)(tri->v1[kx]) - ox));
-    const float16 by = snap_tiny16(fma(-p->sy, e->bz, (float16)(tri->v1[ky]) - oy));
-    const float16 cx = snap_tiny16(fma(-p->sx, e->cz, (float16)(tri->v2[kx]) - ox));
-    const float16 cy = snap_tiny16(fma(-p->sy, e->cz, (float16)(tri->v2[ky]) - oy));
+    e->az = oz - (float16)(tri->v0[kz]);
+    e->bz = oz - (float16)(tri->v1[kz]);
+    e->cz = oz - (float16)(tri->v2[kz]);
+    const float16 ax = snap_tiny16(fma(-p->sx, e->az, ox - (float16)(tri->v0[kx])));
+    const float16 ay = snap_tiny16(fma(-p->sy, e->az, oy - (float16)(tri->v0[ky])));
+    const float16 bx = snap_tiny16(fma(-p->sx, e->bz, ox - (float16)(tri->v1[kx])));
+    const float16 by = snap_tiny16(fma(-p->sy, e->bz, oy - (float16)(tri->v1[ky])));
+    const float16 cx = snap_tiny16(fma(-p->sx, e->cz, ox - (float16)(tri->v2[kx])));
+    const float16 cy = snap_tiny16(fma(-p->sy, e->cz, oy - (float16)(tri->v2[ky])));
     e->wa = difference_of_products16(cx, by, cy, bx);
     e->wb = difference_of_products16(ax, cy, ay, cx);
     e->wc = difference_of_products16(bx, ay, by, ax);
@@ -59,16 +62,18 @@ static inline int16 cross_edges(const Packet *p, global const Triangle *tri, uin
 /* Of the lanes `hit`, those whose t passes the interval and the triangle's own box. */
 static inline int16 clamp_to_triangle(const Packet *p, global const Triangle *tri, int16 hit,
                                       float16 *t) {
-    const float lo_x = m_min(m_min(tri->v0[0], tri->v1[0]), tri->v2[0]);
-    const float lo_y = m_min(m_min(tri->v0[1], tri->v1[1]), tri->v2[1]);
-    const float lo_z = m_min(m_min(tri->v0[2], tri->v1[2]), tri->v2[2]);
-    const float hi_x = m_max(m_max(tri->v0[0], tri->v1[0]), tri->v2[0]);
-    const float hi_y = m_max(m_max(tri->v0[1], tri->v1[1]), tri->v2[1]);
-    const float hi_z = m_max(m_max(tri->v0[2], tri->v1[2]), tri->v2[2]);
-    const float margin = triangle_margin(lo_x, lo_y, lo_z, hi_x, hi_y, hi_z);
+    float lo[3], hi[3];
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        lo[axis] = m_min(m_min(tri->v0[axis], tri->v1[axis]), tri->v2[axis]);
+        hi[axis] = m_max(m_max(tri->v0[axis], tri->v1[axis]), tri->v2[axis]);
+    }
+    const float margin = triangle_margin(lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        lo[axis] -= margin;
+        hi[axis] += margin;
+    }
     float16 near, far;
-    box_interval16(p, lo_x - margin, lo_y - margin, lo_z - margin, hi_x + margin, hi_y + margin,
-                   hi_z + margin, &near, &far);
+    box_interval16(p, lo, hi, &near, &far);
     hit &= (*t >= p->t_min) & (near <= far);
     *t = m_min16(m_max16(*t, near), far);
     return hit & (*t <= p->t_max);
@@ -95,7 +100,7 @@ static inline bool finish_triangle(const TraceScene *scene, const PacketInstance
     const float16 inverse = m_divide16(1.0f, hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
     const float16 scaled_t =
         fma(e->wa, p->sz * e->az, fma(e->wb, p->sz * e->bz, e->wc * (p->sz * e->cz)));
-    float16 t = scaled_t * inverse;
+    float16 t = -scaled_t * inverse;
     hit = clamp_to_triangle(p, tri, hit, &t);
     const uint id = tri->id & MACULA_ID_MASK;
     const uint16 triangle = instance->first_triangle + id;
@@ -138,7 +143,10 @@ static inline bool test_leaf16(const TraceScene *scene, const PacketInstance *in
         for (uint axes = p->axes; axes != 0u; axes &= axes - 1u) {
             const uint kz = axes & 1u ? 0u : (axes & 2u ? 1u : 2u);
             PacketEdges edges;
-            int16 hit = cross_edges(p, tri, kz, &edges) & (p->t_max >= 0.0f);
+            int16 hit = cross_edges(p, tri, kz, &edges);
+#if MACULA_ANY_HIT
+            hit &= p->t_max >= 0.0f;
+#endif
             if ((p->axes & (p->axes - 1u)) != 0u)
                 hit &= p->kz == (int16)((int)kz);
             if (any_lane16(hit))

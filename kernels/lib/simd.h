@@ -1,5 +1,5 @@
-/* Sixteen lanes: OpenCL C vectors in the idioms that compile to short vector code. No any(), no
- * shuffle with a variable mask and no fmin, which become long sequences on CPUs. */
+/* Eight and sixteen lanes: OpenCL C vectors in the idioms that compile to short vector code. No
+ * any(), no shuffle with a variable mask and no fmin, which become long sequences on CPUs. */
 #ifndef MACULA_LIB_SIMD_H
 #define MACULA_LIB_SIMD_H
 
@@ -14,13 +14,6 @@ static inline bool any_lane16(int16 mask) {
     return (halves.x | halves.y) != 0;
 }
 
-static inline float least_lane16(float16 v) {
-    const float8 a = v.lo < v.hi ? v.lo : v.hi;
-    const float4 b = a.lo < a.hi ? a.lo : a.hi;
-    const float2 c = b.lo < b.hi ? b.lo : b.hi;
-    return c.x < c.y ? c.x : c.y;
-}
-
 static inline float greatest_lane16(float16 v) {
     const float8 a = v.lo > v.hi ? v.lo : v.hi;
     const float4 b = a.lo > a.hi ? a.lo : a.hi;
@@ -28,10 +21,32 @@ static inline float greatest_lane16(float16 v) {
     return c.x > c.y ? c.x : c.y;
 }
 
-/* Asks the cache for the 64 bytes around p + offset; OpenCL's own prefetch() does nothing in PoCL. */
+/* The least lanes of eight vectors, folded together: half of a vector is left of each after the
+ * first step, a quarter after the second, and so on. */
+static inline float16 fold_halves(float16 a, float16 b) {
+    return m_min16((float16)(a.lo, b.lo), (float16)(a.hi, b.hi));
+}
+
+static inline float16 fold_quarters(float16 a, float16 b) {
+    return m_min16((float16)(a.s0123, a.s89ab, b.s0123, b.s89ab),
+                   (float16)(a.s4567, a.scdef, b.s4567, b.scdef));
+}
+
+static inline float16 fold_eighths(float16 a, float16 b) {
+    return m_min16((float16)(a.s01, a.s45, a.s89, a.scd, b.s01, b.s45, b.s89, b.scd),
+                   (float16)(a.s23, a.s67, a.sab, a.sef, b.s23, b.s67, b.sab, b.sef));
+}
+
+static inline float8 least_lanes16(const float16 v[8]) {
+    const float16 a = fold_quarters(fold_halves(v[0], v[1]), fold_halves(v[2], v[3]));
+    const float16 b = fold_quarters(fold_halves(v[4], v[5]), fold_halves(v[6], v[7]));
+    const float16 c = fold_eighths(a, b);
+    return c.even < c.odd ? c.even : c.odd;
+}
+
+/* Asks the cache for the 64 bytes at p + offset; OpenCL's own prefetch() does nothing in PoCL. */
 #if defined(__x86_64__) || defined(__aarch64__)
-#define MACULA_FETCH(p, offset)                                                                    \
-    __builtin_prefetch((const void *)((ulong)(p) + (offset)))
+#define MACULA_FETCH(p, offset) __builtin_prefetch((const void *)((ulong)(p) + (offset)))
 #else
 #define MACULA_FETCH(p, offset)
 #endif

@@ -10,25 +10,26 @@
 static inline bool traverse_lower(const TraceScene *scene, TraceQuery *query, int root) {
     global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
     WideStack stack;
-    stack.depth = 0u;
-    push_child(&stack, 0u, root, 0.0f);
-    while (stack.depth != 0u) {
-        const int node = stack.child[--stack.depth];
+    uint depth = push_child(&stack, 0u, 0u, root, 0.0f);
+    while (depth != 0u) {
+        const int child = stack.child[--depth];
 #if !MACULA_ANY_HIT
-        if (stack.near[stack.depth] > query->ray.t_max)
+        if (stack.near[depth] > query->ray.t_max)
             continue;
 #endif
-        if (node >= 0) {
-            float8 near;
-            ulong lanes = enter_wide8(nodes + node, &query->ray, &near);
-            const uint base = stack.depth;
-            while (lanes != 0ul) {
-                const uint i = first_lane8(lanes);
-                lanes = without_lane8(lanes, i);
-                push_child(&stack, base, nodes[node].child[i], ((const float *)&near)[i]);
-            }
-        } else if (test_leaf(scene, query, node)) {
-            return true;
+        if (child < 0) {
+            if (test_leaf(scene, query, child))
+                return true;
+            continue;
+        }
+        float8 near;
+        ulong lanes = enter_wide8(nodes + child, &query->ray, &near);
+        const uint base = depth;
+        while (lanes != 0ul) {
+            const uint i = first_lane8(lanes);
+            lanes = without_lane8(lanes, i);
+            depth = push_child(&stack, base, depth, nodes[child].child[i],
+                               ((const float *)&near)[i]);
         }
     }
     return false;

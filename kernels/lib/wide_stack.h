@@ -8,11 +8,10 @@
 /* Each level leaves at most seven siblings behind. */
 #define MACULA_WIDE_STACK (7 * MACULA_MAX_DEPTH + 8)
 
-/* Children to visit; those of a closest-hit query with a bound of the t at which a ray enters. */
+/* Children to visit, those of a closest-hit query with the t at which they are entered. */
 typedef struct WideStack {
     int child[MACULA_WIDE_STACK];
     float near[MACULA_ANY_HIT ? 1 : MACULA_WIDE_STACK];
-    uint depth;
 } WideStack;
 
 /* Asks the cache for a child of layout wide8_single: a node, or two Triangles. */
@@ -31,9 +30,10 @@ static inline void fetch_child_single(const TraceScene *scene, int child) {
     }
 }
 
-/* Keeps the entries above `base` sorted, the nearest on top. */
-static inline void push_child(WideStack *stack, uint base, int child, float near) {
-    uint i = stack->depth++;
+/* Puts a child on a stack of `depth` entries and returns how many there are now. Those of a
+ * closest-hit query from `base` on stay sorted, the nearest on top. */
+static inline uint push_child(WideStack *stack, uint base, uint depth, int child, float near) {
+    uint i = depth;
 #if !MACULA_ANY_HIT
     for (; i > base && stack->near[i - 1u] < near; --i) {
         stack->near[i] = stack->near[i - 1u];
@@ -42,6 +42,7 @@ static inline void push_child(WideStack *stack, uint base, int child, float near
     stack->near[i] = near;
 #endif
     stack->child[i] = child;
+    return depth + 1u;
 }
 
 #endif

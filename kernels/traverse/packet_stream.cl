@@ -9,19 +9,23 @@
 static inline bool prepare_packet(const TraceScene *scene, global const RayBlock *rays, uint first,
                                   uint count, global uint *results, PacketStream *stream, uint k) {
     global const RayBlock *block = rays + first / MACULA_RAY_BLOCK;
+    Packet *p = stream->packet + k;
     PacketHit *best = stream->best + k;
     *best = no_hit16(vload16(0, block->t_max));
     QueuedPacket q;
     if (load_packet(block, count - first, &q)) {
-        if (!is_coherent16(&q)) {
+        const PacketBounds bounds = make_packet(&q, p);
+        const float spread = spread_of(&bounds);
+        if (spread > MACULA_COHERENT_SPREAD) {
             trace_single_rays(scene, rays, first, count, results);
             return false;
         }
 #if MACULA_INSTANCES
-        trace_coherent(scene, &q, best);
+        trace_coherent(scene, &q, p, &bounds, best);
 #else
-        stream->packet[k] = make_packet(q.ox, q.oy, q.oz, q.dx, q.dy, q.dz, q.t_min, q.t_max);
-        stream->frustum[k] = make_frustum(stream->packet + k);
+        stream->frustum[k] = make_frustum(&bounds);
+        stream->margin = m_max(stream->margin, stream->frustum[k].margin);
+        stream->wide |= spread > MACULA_WIDE_SPREAD ? 1u << k : 0u;
         return true;
 #endif
     }
@@ -36,18 +40,22 @@ kernel void trace(TRACE_ARGUMENTS) {
         return;
     const TraceScene scene = MACULA_TRACE_SCENE;
     PacketStream stream;
-    uint of_octant[8] = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
+    stream.margin = 0.0f;
+    stream.wide = 0u;
+    /* The octants, and again those of packets with directions of both signs along some axis. */
+    uint of_octant[16] = {0u};
     uint packets = 0u;
     for (uint k = 0u; k < MACULA_PACKETS && first + k * 16u < count; ++k)
         if (prepare_packet(&scene, rays, first + k * 16u, count, results, &stream, k)) {
-            of_octant[stream.frustum[k].octant] |= 1u << k;
+            const Packet *p = stream.packet + k;
+            of_octant[p->octant + (p->mixed ? 8u : 0u)] |= 1u << k;
             packets |= 1u << k;
         }
     const PacketInstance instance = instance_of(instances);
-    for (uint octant = 0u; octant < 8u; ++octant)
-        if (of_octant[octant] != 0u)
-            traverse_packets(&scene, &instance, &stream, instances[0].root, of_octant[octant],
-                             octant);
+    for (uint i = 0u; i < 16u; ++i)
+        if (of_octant[i] != 0u)
+            traverse_packets(&scene, &instance, &stream, instances[0].root, of_octant[i], i & 7u,
+                             i >= 8u);
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
         store_packet(results, first + k * 16u, count, stream.best + k);
