@@ -19,13 +19,11 @@ float gradient(std::uint32_t h, float x, float y, float z) {
     return ((k & 1u) != 0u ? -a : a) + ((k & 2u) != 0u ? -b : b);
 }
 
+// The dot product of the offset with one of eight directions of the plane.
 float plane_gradient(std::uint32_t h, float x, float y) {
-    static constexpr float kDiagonal = 0.70710678f;
-    const float a = (h & 1u) != 0u ? -x : x;
-    const float b = (h & 2u) != 0u ? -y : y;
-    if ((h & 4u) != 0u)
-        return (a + b) * kDiagonal * 1.4f;
-    return ((h & 8u) != 0u ? a : b) * 1.4f;
+    static constexpr float kX[8] = {1.4f, -1.4f, 0.0f, 0.0f, 1.0f, -1.0f, 1.0f, -1.0f};
+    static constexpr float kY[8] = {0.0f, 0.0f, 1.4f, -1.4f, 1.0f, 1.0f, -1.0f, -1.0f};
+    return kX[h >> 29] * x + kY[h >> 29] * y;
 }
 
 int wrap(int i, int period) {
@@ -104,15 +102,17 @@ float ridged_noise(glm::vec3 p, int octaves, std::uint32_t seed) {
 
 float tiled_noise(glm::vec2 uv, int frequency, std::uint32_t seed) {
     const glm::vec2 p = uv * static_cast<float>(frequency), cell = glm::floor(p), f = p - cell;
-    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
+    const int x0 = wrap(static_cast<int>(cell.x), frequency),
+              y0 = wrap(static_cast<int>(cell.y), frequency);
+    const int x1 = x0 + 1 == frequency ? 0 : x0 + 1, y1 = y0 + 1 == frequency ? 0 : y0 + 1;
     const float u = fade(f.x), v = fade(f.y);
-    const auto corner = [&](int i, int j) {
-        return plane_gradient(
-            hash(word(wrap(x + i, frequency)), word(wrap(y + j, frequency)), 7u, seed),
-            f.x - static_cast<float>(i), f.y - static_cast<float>(j));
+    const auto corner = [&](int x, int y, float dx, float dy) {
+        return plane_gradient(hash(word(x), word(y), 7u, seed), dx, dy);
     };
-    return glm::mix(glm::mix(corner(0, 0), corner(1, 0), u),
-                    glm::mix(corner(0, 1), corner(1, 1), u), v);
+    const float low = glm::mix(corner(x0, y0, f.x, f.y), corner(x1, y0, f.x - 1.0f, f.y), u);
+    const float high =
+        glm::mix(corner(x0, y1, f.x, f.y - 1.0f), corner(x1, y1, f.x - 1.0f, f.y - 1.0f), u);
+    return glm::mix(low, high, v);
 }
 
 float tiled_fractal(glm::vec2 uv, int frequency, int octaves, std::uint32_t seed) {
