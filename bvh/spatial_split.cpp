@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t kParallelSize = 16384;
 constexpr std::size_t kGrain = 4096;
 constexpr std::uint32_t kMostSpatialBins = 16;
-constexpr float kNoCost = std::numeric_limits<float>::infinity();
 
 struct SpatialMapping {
     Float4 origin{}, scale{}, step{};
