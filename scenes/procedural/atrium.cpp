@@ -32,13 +32,14 @@ void build_furniture(MeshBuilder& b, const Palette& p) {
 }
 
 void light(Scene& scene) {
-    Light sun;
-    sun.kind = LightKind::point;
-    sun.position = {-11.0f, 38.0f, 9.0f};
-    sun.colour = {1.2f, 1.1f, 0.93f};
-    sun.radius = 0.8f;
-    scene.lights.push_back(sun);
-    scene.ambient = {0.42f, 0.43f, 0.47f};
+    // Under the open sky between the awnings, low enough to reach into the galleries.
+    Light skylight;
+    skylight.kind = LightKind::point;
+    skylight.position = {0.9f, 12.4f, 1.6f};
+    skylight.colour = {0.95f, 0.88f, 0.76f};
+    skylight.radius = 0.35f;
+    scene.lights.push_back(skylight);
+    scene.ambient = {0.28f, 0.29f, 0.32f};
     scene.ambient_occlusion_radius = 3.0f;
     scene.background = linear_from_srgb(rgb(0x9cc3ea));
 }
