@@ -12,6 +12,7 @@ foreach(module IN LISTS modules)
   target_include_directories(macula_${module} INTERFACE
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/macula>)
+  target_compile_features(macula_${module} INTERFACE cxx_std_20)
   install(TARGETS macula_${module} EXPORT macula-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
