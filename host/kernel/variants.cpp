@@ -13,10 +13,10 @@ constexpr Parameter work_group(std::uint32_t standard) {
 }
 
 constexpr std::array kOneRay = {work_group(64)};
-constexpr std::array kOnePacket = {work_group(16)};
+constexpr std::array kOnePacket = {work_group(1)};
 constexpr std::array kPacketStream = {
     work_group(1),
-    Parameter{"rays_per_item", 32, 512, 256, true, ParameterUse::literal,
+    Parameter{"rays_per_item", 32, 512, 512, true, ParameterUse::literal,
               "rays that a work-item takes through the tree together"},
 };
 constexpr std::array kStream = {
@@ -52,13 +52,13 @@ constexpr Variant kVariants[] = {
         .name = "packet_stream",
         .paper = "Wald, Boulos and Shirley 2007, section 4; Tsakok 2009",
         .layout = bvh::Layout::wide8_single,
-        .rays_per_item = 256,
+        .rays_per_item = 512,
         .launch = Launch::one_pass,
         .parameters = kPacketStream,
         .unsafe = kNone,
-        .preferred_on_cpu = bit(RayClass::primary),
+        .preferred_on_cpu = bit(RayClass::primary) | bit(RayClass::shadow) | bit(RayClass::sparse),
         .preferred_on_gpu = kNone,
-        .private_bytes = 16 * kPacket + kWide8Stack,
+        .private_bytes = 32 * kPacket + kWide8Stack,
     },
     {
         .name = "packet16",
@@ -68,7 +68,7 @@ constexpr Variant kVariants[] = {
         .launch = Launch::one_pass,
         .parameters = kOnePacket,
         .unsafe = kNone,
-        .preferred_on_cpu = bit(RayClass::shadow) | bit(RayClass::sparse),
+        .preferred_on_cpu = kNone,
         .preferred_on_gpu = kNone,
         .private_bytes = kPacket + kWide8Stack,
     },

@@ -5,8 +5,12 @@
 #include "lib/math.h"
 
 #if MACULA_CORRECTLY_ROUNDED
-static inline float8 m_divide8(float8 n, float8 d) { return n / d; }
-static inline float16 m_divide16(float16 n, float16 d) { return n / d; }
+static inline float8 m_divide8(float8 n, float8 d) {
+    return n / d;
+}
+static inline float16 m_divide16(float16 n, float16 d) {
+    return n / d;
+}
 #else
 /* m_divide_in_software of lib/math.h; a comparison's lanes are 0 or -1. */
 #define MACULA_DEFINE_DIVIDE(N)                                                                    \

@@ -35,7 +35,7 @@ typedef struct Packet {
 } Packet;
 
 /* False when no lane is active. `count`: rays of the queue from the block's first one on. */
-static inline bool load_packet(global const RayBlock *block, uint count, QueuedPacket *p) {
+static inline bool load_packet(global const RayBlock* block, uint count, QueuedPacket* p) {
     const uint lanes = count < MACULA_RAY_BLOCK ? count : MACULA_RAY_BLOCK;
     uint source = 0u;
     while (source < lanes && !ray_is_active(block->t_min[source], block->t_max[source]))
@@ -44,8 +44,8 @@ static inline bool load_packet(global const RayBlock *block, uint count, QueuedP
         return false;
     p->t_min = vload16(0, block->t_min);
     p->t_max = vload16(0, block->t_max);
-    const int16 active = (MACULA_LANES16 < (int16)((int)lanes)) & (p->t_min >= 0.0f) &
-                         (p->t_min <= p->t_max);
+    const int16 active =
+        (MACULA_LANES16 < (int16)((int)lanes)) & (p->t_min >= 0.0f) & (p->t_min <= p->t_max);
     p->ox = active ? vload16(0, block->origin_x) : (float16)(block->origin_x[source]);
     p->oy = active ? vload16(0, block->origin_y) : (float16)(block->origin_y[source]);
     p->oz = active ? vload16(0, block->origin_z) : (float16)(block->origin_z[source]);
@@ -85,7 +85,7 @@ static inline PacketBounds bound_packet(const float16 o[3], const float16 d[3], 
     return b;
 }
 
-static inline void classify_octants(Packet *p, const PacketBounds *b) {
+static inline void classify_octants(Packet* p, const PacketBounds* b) {
     p->octant = 0u;
     p->mixed = false;
     for (uint axis = 0u; axis < 3u; ++axis) {
@@ -95,7 +95,7 @@ static inline void classify_octants(Packet *p, const PacketBounds *b) {
 }
 
 /* The dominant axis that the bounds show all lanes to have, or 3. */
-static inline uint common_axis(const PacketBounds *b) {
+static inline uint common_axis(const PacketBounds* b) {
     float least[3], greatest[3];
     for (uint axis = 0u; axis < 3u; ++axis) {
         least[axis] = m_max(m_max(b->d_lo[axis], -b->d_hi[axis]), 0.0f);
@@ -108,7 +108,7 @@ static inline uint common_axis(const PacketBounds *b) {
     return least[2] > greatest[0] && least[2] > greatest[1] ? 2u : 3u;
 }
 
-static inline void shear_packet(Packet *p, const float16 d[3], const PacketBounds *b) {
+static inline void shear_packet(Packet* p, const float16 d[3], const PacketBounds* b) {
     const uint kz = common_axis(b);
     if (kz < 3u) {
         const uint kx = kz == 2u ? 0u : kz + 1u, ky = kx == 2u ? 0u : kx + 1u;
@@ -128,7 +128,7 @@ static inline void shear_packet(Packet *p, const float16 d[3], const PacketBound
 }
 
 /* make_trace_ray. */
-static inline PacketBounds make_packet(const QueuedPacket *q, Packet *p) {
+static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
     const float16 d[3] = {bounded_direction16(q->dx), bounded_direction16(q->dy),
                           bounded_direction16(q->dz)};
     p->o[0] = q->ox;
@@ -136,8 +136,8 @@ static inline PacketBounds make_packet(const QueuedPacket *q, Packet *p) {
     p->o[2] = q->oz;
     p->t_min = q->t_min;
     p->t_max = q->t_max;
-    const float16 reach = m_max16(m_max16(fabs(q->ox), fabs(q->oy)),
-                                  m_max16(fabs(q->oz), (float16)(0x1p-20f)));
+    const float16 reach =
+        m_max16(m_max16(fabs(q->ox), fabs(q->oy)), m_max16(fabs(q->oz), (float16)(0x1p-20f)));
     const float16 margin = MACULA_RAY_MARGIN * reach;
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float16 r = m_divide16((float16)(1.0f), d[axis]);
@@ -154,8 +154,8 @@ static inline PacketBounds make_packet(const QueuedPacket *q, Packet *p) {
 }
 
 /* box_interval, each lane picking its planes by its own octant. */
-static inline void box_interval16(const Packet *p, const float lo[3], const float hi[3],
-                                  float16 *near, float16 *far) {
+static inline void box_interval16(const Packet* p, const float lo[3], const float hi[3],
+                                  float16* near, float16* far) {
     float16 n[3], f[3];
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float16 below = lo[axis], above = hi[axis];
@@ -168,7 +168,7 @@ static inline void box_interval16(const Packet *p, const float lo[3], const floa
 }
 
 /* The lanes that enter a box no later than their t_max. */
-static inline int16 enter_box16(const Packet *p, const float lo[3], const float hi[3]) {
+static inline int16 enter_box16(const Packet* p, const float lo[3], const float hi[3]) {
     float16 near, far;
     box_interval16(p, lo, hi, &near, &far);
     return near <= m_min16(far, p->t_max);

@@ -26,18 +26,18 @@ typedef struct Frustum {
 #define MACULA_FRUSTUM_FAR 0x1.fffffep+127f
 
 /* t of a plane p is at least (p - o) * r, less the margin; r is of either sign. */
-static inline void bound_near(float o, float margin, float r, float *near_r, float *near_b) {
+static inline void bound_near(float o, float margin, float r, float* near_r, float* near_b) {
     *near_r = r * MACULA_FRUSTUM_SHRINK;
     *near_b = fma(-o, *near_r, -fabs(*near_r) * margin);
 }
 
-static inline void bound_far(float o, float margin, float r, float *far_r, float *far_b) {
+static inline void bound_far(float o, float margin, float r, float* far_r, float* far_b) {
     *far_r = r * MACULA_FRUSTUM_GROW;
     *far_b = fma(-o, *far_r, fabs(*far_r) * margin);
 }
 
 /* r_of_lo, r_of_hi: reciprocals of the least and the greatest direction component. */
-static inline void bound_axis(Frustum *f, uint axis, const PacketBounds *b, float r_of_lo,
+static inline void bound_axis(Frustum* f, uint axis, const PacketBounds* b, float r_of_lo,
                               float r_of_hi) {
     const float o_lo = b->o_lo[axis], o_hi = b->o_hi[axis];
     f->back_r[axis] = 0.0f;
@@ -56,14 +56,14 @@ static inline void bound_axis(Frustum *f, uint axis, const PacketBounds *b, floa
     }
 }
 
-static inline float reach_of(const PacketBounds *b) {
+static inline float reach_of(const PacketBounds* b) {
     float reach = 0x1p-20f;
     for (uint axis = 0u; axis < 3u; ++axis)
         reach = m_max(reach, m_max(-b->o_lo[axis], b->o_hi[axis]));
     return reach;
 }
 
-static inline Frustum make_frustum(const PacketBounds *b) {
+static inline Frustum make_frustum(const PacketBounds* b) {
     Frustum f;
     f.margin = MACULA_FRUSTUM_MARGIN * reach_of(b);
     for (uint axis = 0u; axis < 3u; ++axis)
@@ -78,7 +78,7 @@ typedef struct WidePlanes {
     float8 near[3], far[3];
 } WidePlanes;
 
-static inline WidePlanes load_planes(global const Wide8Node *node, uint octant) {
+static inline WidePlanes load_planes(global const Wide8Node* node, uint octant) {
     const uint sx = octant & 1u, sy = (octant >> 1) & 1u, sz = octant >> 2;
     WidePlanes w;
     w.near[0] = vload8(0, node->plane[0][sx]);
@@ -92,7 +92,7 @@ static inline WidePlanes load_planes(global const Wide8Node *node, uint octant) 
 
 /* The children that some ray may enter, and a bound of the t at which one does. `mixed`: the rays
  * have several octants. */
-static inline int8 enter_frustum8(const Frustum *f, bool mixed, const WidePlanes *w, float8 *near) {
+static inline int8 enter_frustum8(const Frustum* f, bool mixed, const WidePlanes* w, float8* near) {
     const float8 nx = fma(w->near[0], (float8)(f->near_r[0]), (float8)(f->near_b[0]));
     const float8 ny = fma(w->near[1], (float8)(f->near_r[1]), (float8)(f->near_b[1]));
     const float8 nz = fma(w->near[2], (float8)(f->near_r[2]), (float8)(f->near_b[2]));

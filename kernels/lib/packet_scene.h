@@ -10,8 +10,8 @@ static inline float16 unsigned_zero16(float16 x) {
     return as_uint16(x) == (uint16)(0x80000000u) ? (float16)(0.0f) : x;
 }
 
-static inline void store_packet(global uint *results, uint first, uint count,
-                                const PacketHit *best) {
+static inline void store_packet(global uint* results, uint first, uint count,
+                                const PacketHit* best) {
     const uint lanes = count - first < MACULA_RAY_BLOCK ? count - first : MACULA_RAY_BLOCK;
 #if MACULA_ANY_HIT
     const uint16 hit = best->triangle != (uint16)(MACULA_NO_TRIANGLE) ? (uint16)(1u) : (uint16)(0u);
@@ -19,9 +19,9 @@ static inline void store_packet(global uint *results, uint first, uint count,
         vstore16(hit, 0, results + first);
     else
         for (uint i = 0u; i < lanes; ++i)
-            results[first + i] = ((const uint *)&hit)[i];
+            results[first + i] = ((const uint*)&hit)[i];
 #else
-    global HitBlock *block = (global HitBlock *)results + first / MACULA_RAY_BLOCK;
+    global HitBlock* block = (global HitBlock*)results + first / MACULA_RAY_BLOCK;
     vstore16(unsigned_zero16(best->t), 0, block->t);
     vstore16(unsigned_zero16(best->u), 0, block->u);
     vstore16(unsigned_zero16(best->v), 0, block->v);
@@ -44,10 +44,10 @@ static inline PacketHit no_hit16(float16 t_max) {
 #endif
 
 #ifndef MACULA_WIDE_SPREAD
-#define MACULA_WIDE_SPREAD 0.02f
+#define MACULA_WIDE_SPREAD 0.01f
 #endif
 
-static inline float spread_of(const PacketBounds *b) {
+static inline float spread_of(const PacketBounds* b) {
     float size = 0.0f, spread = 0.0f;
     for (uint axis = 0u; axis < 3u; ++axis) {
         size = m_max(size, m_max(-b->d_lo[axis], b->d_hi[axis]));
@@ -56,8 +56,8 @@ static inline float spread_of(const PacketBounds *b) {
     return m_divide(spread, size);
 }
 
-static inline void trace_coherent(const TraceScene *scene, const QueuedPacket *q, Packet *p,
-                                  const PacketBounds *bounds, PacketHit *best) {
+static inline void trace_coherent(const TraceScene* scene, const QueuedPacket* q, Packet* p,
+                                  const PacketBounds* bounds, PacketHit* best) {
 #if MACULA_INSTANCES
     traverse_instances16(scene, q, p, best);
 #else
@@ -66,9 +66,9 @@ static inline void trace_coherent(const TraceScene *scene, const QueuedPacket *q
 #endif
 }
 
-static inline void trace_packet(const TraceScene *scene, global const RayBlock *rays, uint first,
-                                uint count, global uint *results) {
-    global const RayBlock *block = rays + first / MACULA_RAY_BLOCK;
+static inline void trace_packet(const TraceScene* scene, global const RayBlock* rays, uint first,
+                                uint count, global uint* results) {
+    global const RayBlock* block = rays + first / MACULA_RAY_BLOCK;
     PacketHit best = no_hit16(vload16(0, block->t_max));
     QueuedPacket q;
     if (load_packet(block, count - first, &q)) {

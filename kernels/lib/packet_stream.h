@@ -23,9 +23,11 @@ typedef struct PacketStreamStack {
     float near[MACULA_WIDE_STACK];
 } PacketStreamStack;
 
-static inline uint first_bit(uint mask) { return 31u - (uint)clz(mask & (~mask + 1u)); }
+static inline uint first_bit(uint mask) {
+    return 31u - (uint)clz(mask & (~mask + 1u));
+}
 
-static inline void push_packets(PacketStreamStack *stack, uint base, uint i, uint slot,
+static inline void push_packets(PacketStreamStack* stack, uint base, uint i, uint slot,
                                 uint packets, float near) {
     for (; i > base && stack->near[i - 1u] < near; --i) {
         stack->near[i] = stack->near[i - 1u];
@@ -39,10 +41,10 @@ static inline void push_packets(PacketStreamStack *stack, uint base, uint i, uin
 
 /* Tests the packets' frusta against a node's children and puts those that are entered on the stack
  * of `depth` entries; returns how many there are now. */
-static inline uint visit_node(const TraceScene *scene, const PacketStream *stream, uint index,
-                              uint packets, uint octant, bool mixed, PacketStreamStack *stack,
+static inline uint visit_node(const TraceScene* scene, const PacketStream* stream, uint index,
+                              uint packets, uint octant, bool mixed, PacketStreamStack* stack,
                               uint depth) {
-    global const Wide8Node *node = (global const Wide8Node *)scene->nodes + index;
+    global const Wide8Node* node = (global const Wide8Node*)scene->nodes + index;
     const WidePlanes planes = load_planes(node, octant);
     int8 found = 0;
     float8 nearest = MACULA_EMPTY;
@@ -59,14 +61,14 @@ static inline uint visit_node(const TraceScene *scene, const PacketStream *strea
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
         fetch_child_single(scene, node->child[i]);
-        push_packets(stack, base, depth, index * 8u + i, ((const uint *)&found)[i],
-                     ((const float *)&nearest)[i]);
+        push_packets(stack, base, depth, index * 8u + i, ((const uint*)&found)[i],
+                     ((const float*)&nearest)[i]);
     }
     return depth;
 }
 
 /* The packets with a lane that may still find something closer than `near`. */
-static inline uint packets_beyond(const PacketStream *stream, uint packets, float near) {
+static inline uint packets_beyond(const PacketStream* stream, uint packets, float near) {
     uint kept = 0u;
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
@@ -76,22 +78,22 @@ static inline uint packets_beyond(const PacketStream *stream, uint packets, floa
 }
 
 /* The packets with a lane that may enter a box. */
-static inline uint packets_in_box(const PacketStream *stream, uint packets, bool mixed, uint octant,
-                                  global const Wide8Node *node, uint i) {
+static inline uint packets_in_box(const PacketStream* stream, uint packets, bool mixed, uint octant,
+                                  global const Wide8Node* node, uint i) {
     const BoxPlanes box = box_planes(node, i, octant, stream->margin);
     uint kept = 0u;
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
-        const Packet *p = stream->packet + k;
-        const bool enters = mixed ? may_enter_mixed(p, node, i)
-                                  : may_enter(p, stream->frustum[k].t_min, &box);
+        const Packet* p = stream->packet + k;
+        const bool enters =
+            mixed ? may_enter_mixed(p, node, i) : may_enter(p, stream->frustum[k].t_min, &box);
         kept |= enters ? 1u << k : 0u;
     }
     return kept;
 }
 
-static inline void test_leaf_of_packets(const TraceScene *scene, const PacketInstance *instance,
-                                        PacketStream *stream, int leaf, uint packets) {
+static inline void test_leaf_of_packets(const TraceScene* scene, const PacketInstance* instance,
+                                        PacketStream* stream, int leaf, uint packets) {
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
         if (test_leaf16(scene, instance, stream->packet + k, stream->best + k, leaf))
@@ -99,16 +101,16 @@ static inline void test_leaf_of_packets(const TraceScene *scene, const PacketIns
     }
 }
 
-static inline void traverse_packets(const TraceScene *scene, const PacketInstance *instance,
-                                    PacketStream *stream, int root, uint all, uint octant,
+static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
+                                    PacketStream* stream, int root, uint all, uint octant,
                                     bool mixed) {
-    global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
+    global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     PacketStreamStack stack;
     uint depth = visit_node(scene, stream, (uint)root, all, octant, mixed, &stack, 0u);
     while (depth != 0u) {
         --depth;
         const uint packets = stack.packets[depth];
-        global const Wide8Node *node = nodes + (stack.slot[depth] >> 3);
+        global const Wide8Node* node = nodes + (stack.slot[depth] >> 3);
         const uint i = stack.slot[depth] & 7u;
         const int child = node->child[i];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;

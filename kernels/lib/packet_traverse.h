@@ -13,7 +13,7 @@ typedef struct BoxPlanes {
     float near[3], far[3];
 } BoxPlanes;
 
-static inline BoxPlanes box_planes(global const Wide8Node *node, uint i, uint octant,
+static inline BoxPlanes box_planes(global const Wide8Node* node, uint i, uint octant,
                                    float margin) {
     BoxPlanes box;
     for (uint axis = 0u; axis < 3u; ++axis) {
@@ -26,11 +26,11 @@ static inline BoxPlanes box_planes(global const Wide8Node *node, uint i, uint oc
 }
 
 /* True when some lane may enter the box no later than its t_max. */
-static inline bool may_enter(const Packet *p, float t_min, const BoxPlanes *box) {
-    const float16 near = m_max16(m_max16(fma((float16)(box->near[0]), p->r[0], p->n[0]),
-                                         fma((float16)(box->near[1]), p->r[1], p->n[1])),
-                                 m_max16(fma((float16)(box->near[2]), p->r[2], p->n[2]),
-                                         (float16)(t_min)));
+static inline bool may_enter(const Packet* p, float t_min, const BoxPlanes* box) {
+    const float16 near =
+        m_max16(m_max16(fma((float16)(box->near[0]), p->r[0], p->n[0]),
+                        fma((float16)(box->near[1]), p->r[1], p->n[1])),
+                m_max16(fma((float16)(box->near[2]), p->r[2], p->n[2]), (float16)(t_min)));
     const float16 far = m_min16(m_min16(fma((float16)(box->far[0]), p->r[0], p->n[0]),
                                         fma((float16)(box->far[1]), p->r[1], p->n[1])),
                                 fma((float16)(box->far[2]), p->r[2], p->n[2]));
@@ -38,14 +38,14 @@ static inline bool may_enter(const Packet *p, float t_min, const BoxPlanes *box)
 }
 
 /* The same for lanes of several octants. */
-static inline bool may_enter_mixed(const Packet *p, global const Wide8Node *node, uint i) {
+static inline bool may_enter_mixed(const Packet* p, global const Wide8Node* node, uint i) {
     const float lo[3] = {node->plane[0][0][i], node->plane[1][0][i], node->plane[2][0][i]};
     const float hi[3] = {node->plane[0][1][i], node->plane[1][1][i], node->plane[2][1][i]};
     return any_lane16(enter_box16(p, lo, hi));
 }
 
-static inline uint push_children16(const TraceScene *scene, const Packet *p, const Frustum *f,
-                                   global const Wide8Node *node, WideStack *stack, uint depth) {
+static inline uint push_children16(const TraceScene* scene, const Packet* p, const Frustum* f,
+                                   global const Wide8Node* node, WideStack* stack, uint depth) {
     const WidePlanes planes = load_planes(node, p->octant);
     float8 near;
     ulong lanes = lane_mask8(enter_frustum8(f, p->mixed, &planes, &near));
@@ -56,19 +56,21 @@ static inline uint push_children16(const TraceScene *scene, const Packet *p, con
         const BoxPlanes box = box_planes(node, i, p->octant, f->margin);
         if (p->mixed ? may_enter_mixed(p, node, i) : may_enter(p, f->t_min, &box)) {
             fetch_child_single(scene, node->child[i]);
-            depth = push_child(stack, base, depth, node->child[i], ((const float *)&near)[i]);
+            depth = push_child(stack, base, depth, node->child[i], ((const float*)&near)[i]);
         }
     }
     return depth;
 }
 
 /* The bound for culling after hits; negative when all lanes are done. */
-static inline float bound_t_max(const Packet *p) { return greatest_lane16(p->t_max); }
+static inline float bound_t_max(const Packet* p) {
+    return greatest_lane16(p->t_max);
+}
 
-static inline void traverse_packet(const TraceScene *scene, const PacketInstance *instance,
-                                   Packet *p, const PacketBounds *bounds, PacketHit *best,
+static inline void traverse_packet(const TraceScene* scene, const PacketInstance* instance,
+                                   Packet* p, const PacketBounds* bounds, PacketHit* best,
                                    int root) {
-    global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
+    global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     Frustum f = make_frustum(bounds);
     WideStack stack;
     uint depth = push_child(&stack, 0u, 0u, root, 0.0f);

@@ -38,8 +38,8 @@ typedef struct PacketEdges {
  * subtraction: sheared coordinates change their sign, and the edge functions stay the same. (An
  * edge function that is not 0
  * makes the determinant not 0, since all have the same sign.) */
-static inline int16 cross_edges(const Packet *p, global const Triangle *tri, uint kz,
-                                PacketEdges *e) {
+static inline int16 cross_edges(const Packet* p, global const Triangle* tri, uint kz,
+                                PacketEdges* e) {
     const uint kx = kz == 2u ? 0u : kz + 1u, ky = kx == 2u ? 0u : kx + 1u;
     const float16 ox = p->o[kx], oy = p->o[ky], oz = p->o[kz];
     e->az = oz - (float16)(tri->v0[kz]);
@@ -60,8 +60,8 @@ static inline int16 cross_edges(const Packet *p, global const Triangle *tri, uin
 }
 
 /* Of the lanes `hit`, those whose t passes the interval and the triangle's own box. */
-static inline int16 clamp_to_triangle(const Packet *p, global const Triangle *tri, int16 hit,
-                                      float16 *t) {
+static inline int16 clamp_to_triangle(const Packet* p, global const Triangle* tri, int16 hit,
+                                      float16* t) {
     float lo[3], hi[3];
     for (uint axis = 0u; axis < 3u; ++axis) {
         lo[axis] = m_min(m_min(tri->v0[axis], tri->v1[axis]), tri->v2[axis]);
@@ -81,22 +81,22 @@ static inline int16 clamp_to_triangle(const Packet *p, global const Triangle *tr
 
 #if MACULA_MASKS
 /* Drops the lanes whose texel is not solid. */
-static inline int16 keep_solid(const TraceScene *scene, uint slot, int16 hit, float16 u,
+static inline int16 keep_solid(const TraceScene* scene, uint slot, int16 hit, float16 u,
                                float16 v) {
     int16 solid = 0;
     for (uint i = 0u; i < 16u; ++i)
-        if (((const int *)&hit)[i] != 0 &&
-            mask_is_solid(&scene->masks, slot, ((const float *)&u)[i], ((const float *)&v)[i]))
-            ((int *)&solid)[i] = -1;
+        if (((const int*)&hit)[i] != 0 &&
+            mask_is_solid(&scene->masks, slot, ((const float*)&u)[i], ((const float*)&v)[i]))
+            ((int*)&solid)[i] = -1;
     return solid;
 }
 #endif
 
 /* Finishes the test of the lanes that cross a triangle's edges and takes their hits; true when the
  * packet's bounds have changed. */
-static inline bool finish_triangle(const TraceScene *scene, const PacketInstance *instance,
-                                   Packet *p, PacketHit *best, global const Triangle *tri,
-                                   const PacketEdges *e, int16 hit) {
+static inline bool finish_triangle(const TraceScene* scene, const PacketInstance* instance,
+                                   Packet* p, PacketHit* best, global const Triangle* tri,
+                                   const PacketEdges* e, int16 hit) {
     const float16 inverse = m_divide16(1.0f, hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
     const float16 scaled_t =
         fma(e->wa, p->sz * e->az, fma(e->wb, p->sz * e->bz, e->wc * (p->sz * e->cz)));
@@ -131,12 +131,12 @@ static inline bool finish_triangle(const TraceScene *scene, const PacketInstance
 }
 
 /* Tests the Triangles of a leaf; true when the packet's bounds have changed. */
-static inline bool test_leaf16(const TraceScene *scene, const PacketInstance *instance, Packet *p,
-                               PacketHit *best, int leaf) {
+static inline bool test_leaf16(const TraceScene* scene, const PacketInstance* instance, Packet* p,
+                               PacketHit* best, int leaf) {
     const uint bits = (uint)~leaf;
-    global const Triangle *tri =
-        (global const Triangle *)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
-    global const Triangle *end = tri + (bits & MACULA_LEAF_MAX);
+    global const Triangle* tri =
+        (global const Triangle*)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
+    global const Triangle* end = tri + (bits & MACULA_LEAF_MAX);
     bool changed = false;
     for (; tri != end; ++tri) {
         /* Nearly always one turn: neighbouring rays have the same dominant axis. */

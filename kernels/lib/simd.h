@@ -5,8 +5,12 @@
 
 #include "lib/math_vector.h"
 
-static inline float16 m_min16(float16 a, float16 b) { return a < b ? a : b; }
-static inline float16 m_max16(float16 a, float16 b) { return a > b ? a : b; }
+static inline float16 m_min16(float16 a, float16 b) {
+    return a < b ? a : b;
+}
+static inline float16 m_max16(float16 a, float16 b) {
+    return a > b ? a : b;
+}
 
 /* `mask` is the result of a comparison: each lane 0 or -1. */
 static inline bool any_lane16(int16 mask) {
@@ -46,7 +50,7 @@ static inline float8 least_lanes16(const float16 v[8]) {
 
 /* Asks the cache for the 64 bytes at p + offset; OpenCL's own prefetch() does nothing in PoCL. */
 #if defined(__x86_64__) || defined(__aarch64__)
-#define MACULA_FETCH(p, offset) __builtin_prefetch((const void *)((ulong)(p) + (offset)))
+#define MACULA_FETCH(p, offset) __builtin_prefetch((const void*)((ulong)(p) + (offset)))
 #else
 #define MACULA_FETCH(p, offset)
 #endif

@@ -12,8 +12,8 @@ typedef struct StreamRay {
     float ox, oy, oz;
 } StreamRay;
 
-static inline void permute_origin(StreamRay *s) {
-    const TraceRay *r = &s->query.ray;
+static inline void permute_origin(StreamRay* s) {
+    const TraceRay* r = &s->query.ray;
     s->ox = pick_axis(r->kx, r->ox, r->oy, r->oz);
     s->oy = pick_axis(r->ky, r->ox, r->oy, r->oz);
     s->oz = pick_axis(r->kz, r->ox, r->oy, r->oz);
@@ -25,9 +25,9 @@ typedef struct BlockEdges {
 } BlockEdges;
 
 /* The lanes whose triangle the ray's line crosses. */
-static inline int8 cross_edges8(const StreamRay *s, global const TriangleBlock8 *block,
-                                BlockEdges *e) {
-    const TraceRay *r = &s->query.ray;
+static inline int8 cross_edges8(const StreamRay* s, global const TriangleBlock8* block,
+                                BlockEdges* e) {
+    const TraceRay* r = &s->query.ray;
     const uint kx = r->kx, ky = r->ky, kz = r->kz;
     e->az = vload8(0, block->v[0][kz]) - (float8)(s->oz);
     e->bz = vload8(0, block->v[1][kz]) - (float8)(s->oz);
@@ -47,8 +47,8 @@ static inline int8 cross_edges8(const StreamRay *s, global const TriangleBlock8 
     return (least < (float8)(0.0f)) ^ (greatest > (float8)(0.0f));
 }
 
-static inline void axis_bounds8(global const TriangleBlock8 *block, uint axis, float8 *lo,
-                                float8 *hi) {
+static inline void axis_bounds8(global const TriangleBlock8* block, uint axis, float8* lo,
+                                float8* hi) {
     const float8 a = vload8(0, block->v[0][axis]);
     const float8 b = vload8(0, block->v[1][axis]);
     const float8 c = vload8(0, block->v[2][axis]);
@@ -57,8 +57,8 @@ static inline void axis_bounds8(global const TriangleBlock8 *block, uint axis, f
 }
 
 /* Of the lanes `hit`, those whose t passes the interval and the triangle's own box. */
-static inline int8 clamp_to_triangles8(const TraceRay *r, global const TriangleBlock8 *block,
-                                       int8 hit, float8 *t) {
+static inline int8 clamp_to_triangles8(const TraceRay* r, global const TriangleBlock8* block,
+                                       int8 hit, float8* t) {
     float8 lx, ly, lz, hx, hy, hz;
     axis_bounds8(block, 0u, &lx, &hx);
     axis_bounds8(block, 1u, &ly, &hy);
@@ -83,10 +83,10 @@ static inline int8 clamp_to_triangles8(const TraceRay *r, global const TriangleB
 }
 
 /* Finishes the test of the lanes that the ray's line crosses; true when the query is answered. */
-static inline bool finish_block8(const TraceScene *scene, StreamRay *s,
-                                 global const TriangleBlock8 *block, const BlockEdges *e,
+static inline bool finish_block8(const TraceScene* scene, StreamRay* s,
+                                 global const TriangleBlock8* block, const BlockEdges* e,
                                  int8 hit) {
-    const TraceRay *r = &s->query.ray;
+    const TraceRay* r = &s->query.ray;
     const float8 one = 1.0f, shear = r->sz;
     const float8 inverse = m_divide8(one, hit ? (e->wa + e->wb) + e->wc : one);
     const float8 scaled_t =
@@ -99,19 +99,19 @@ static inline bool finish_block8(const TraceScene *scene, StreamRay *s,
     do {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
-        if (accept_hit(scene, &s->query, block->id[i], ((const float *)&t)[i],
-                       ((const float *)&u)[i], ((const float *)&v)[i]))
+        if (accept_hit(scene, &s->query, block->id[i], ((const float*)&t)[i], ((const float*)&u)[i],
+                       ((const float*)&v)[i]))
             return true;
     } while (lanes != 0ul);
     return false;
 }
 
 /* True when the query is answered. */
-static inline bool test_leaf_of_stream(const TraceScene *scene, StreamRay *s, int leaf) {
+static inline bool test_leaf_of_stream(const TraceScene* scene, StreamRay* s, int leaf) {
     const uint bits = (uint)~leaf;
-    global const TriangleBlock8 *block =
-        (global const TriangleBlock8 *)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
-    global const TriangleBlock8 *end = block + (bits & MACULA_LEAF_MAX);
+    global const TriangleBlock8* block =
+        (global const TriangleBlock8*)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
+    global const TriangleBlock8* end = block + (bits & MACULA_LEAF_MAX);
     for (; block != end; ++block) {
         BlockEdges edges;
         const int8 hit = cross_edges8(s, block, &edges);

@@ -3,12 +3,12 @@
 #ifndef MACULA_LIB_WIDE_SINGLE_H
 #define MACULA_LIB_WIDE_SINGLE_H
 
-#include "lib/wide_stack.h"
 #include "lib/traverse_query.h"
 #include "lib/traverse_wide8.h"
+#include "lib/wide_stack.h"
 
-static inline bool traverse_lower(const TraceScene *scene, TraceQuery *query, int root) {
-    global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
+static inline bool traverse_lower(const TraceScene* scene, TraceQuery* query, int root) {
+    global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     WideStack stack;
     uint depth = push_child(&stack, 0u, 0u, root, 0.0f);
     while (depth != 0u) {
@@ -28,8 +28,8 @@ static inline bool traverse_lower(const TraceScene *scene, TraceQuery *query, in
         while (lanes != 0ul) {
             const uint i = first_lane8(lanes);
             lanes = without_lane8(lanes, i);
-            depth = push_child(&stack, base, depth, nodes[child].child[i],
-                               ((const float *)&near)[i]);
+            depth =
+                push_child(&stack, base, depth, nodes[child].child[i], ((const float*)&near)[i]);
         }
     }
     return false;
@@ -37,8 +37,8 @@ static inline bool traverse_lower(const TraceScene *scene, TraceQuery *query, in
 
 #include "lib/traverse_scene.h"
 
-static inline void trace_single_rays(const TraceScene *scene, global const RayBlock *rays,
-                                     uint first, uint count, global uint *results) {
+static inline void trace_single_rays(const TraceScene* scene, global const RayBlock* rays,
+                                     uint first, uint count, global uint* results) {
     const uint end = count - first < MACULA_RAY_BLOCK ? count : first + MACULA_RAY_BLOCK;
     for (uint i = first; i < end; ++i)
         trace_ray(scene, rays, i, results);

@@ -15,16 +15,16 @@ typedef struct WideStack {
 } WideStack;
 
 /* Asks the cache for a child of layout wide8_single: a node, or two Triangles. */
-static inline void fetch_child_single(const TraceScene *scene, int child) {
+static inline void fetch_child_single(const TraceScene* scene, int child) {
     if (child >= 0) {
-        global const Wide8Node *node = (global const Wide8Node *)scene->nodes + child;
+        global const Wide8Node* node = (global const Wide8Node*)scene->nodes + child;
         MACULA_FETCH(node, 0);
         MACULA_FETCH(node, 64);
         MACULA_FETCH(node, 128);
         MACULA_FETCH(node, 192);
     } else {
-        global const Triangle *triangle =
-            (global const Triangle *)scene->triangles + ((uint)~child >> MACULA_LEAF_COUNT_BITS);
+        global const Triangle* triangle =
+            (global const Triangle*)scene->triangles + ((uint)~child >> MACULA_LEAF_COUNT_BITS);
         MACULA_FETCH(triangle, 0);
         MACULA_FETCH(triangle, 64);
     }
@@ -32,7 +32,7 @@ static inline void fetch_child_single(const TraceScene *scene, int child) {
 
 /* Puts a child on a stack of `depth` entries and returns how many there are now. Those of a
  * closest-hit query from `base` on stay sorted, the nearest on top. */
-static inline uint push_child(WideStack *stack, uint base, uint depth, int child, float near) {
+static inline uint push_child(WideStack* stack, uint base, uint depth, int child, float near) {
     uint i = depth;
 #if !MACULA_ANY_HIT
     for (; i > base && stack->near[i - 1u] < near; --i) {

@@ -22,7 +22,9 @@ typedef struct StreamStack {
     uint depth;
 } StreamStack;
 
-static inline uint first_ray(uint rays) { return 31u - (uint)clz(rays & (~rays + 1u)); }
+static inline uint first_ray(uint rays) {
+    return 31u - (uint)clz(rays & (~rays + 1u));
+}
 
 /* What the rays find in a node: lane c of `rays` is the mask of those that enter child c, lane c of
  * `near` the least t at which one does. */
@@ -31,8 +33,8 @@ typedef struct StreamChildren {
     float8 near;
 } StreamChildren;
 
-static inline StreamChildren enter_children8(global const Wide8Node *node,
-                                             const StreamRay *stream, uint rays, uint octant) {
+static inline StreamChildren enter_children8(global const Wide8Node* node, const StreamRay* stream,
+                                             uint rays, uint octant) {
     const uint sx = octant & 1u, sy = (octant >> 1) & 1u, sz = octant >> 2;
     const float8 near_x = vload8(0, node->plane[0][sx]), far_x = vload8(0, node->plane[0][sx ^ 1u]);
     const float8 near_y = vload8(0, node->plane[1][sy]), far_y = vload8(0, node->plane[1][sy ^ 1u]);
@@ -43,7 +45,7 @@ static inline StreamChildren enter_children8(global const Wide8Node *node,
     do {
         const uint k = first_ray(rays);
         rays &= rays - 1u;
-        const TraceRay *r = &stream[k].query.ray;
+        const TraceRay* r = &stream[k].query.ray;
         float8 near, far;
         box_interval8(r, near_x, near_y, near_z, far_x, far_y, far_z, &near, &far);
         const int8 enters = near <= m_min8(far, (float8)(r->t_max));
@@ -53,15 +55,15 @@ static inline StreamChildren enter_children8(global const Wide8Node *node,
     return found;
 }
 
-static inline void fetch_child(const TraceScene *scene, int child) {
+static inline void fetch_child(const TraceScene* scene, int child) {
     if (child >= 0) {
-        global const Wide8Node *node = (global const Wide8Node *)scene->nodes + child;
+        global const Wide8Node* node = (global const Wide8Node*)scene->nodes + child;
         MACULA_FETCH(node, 0);
         MACULA_FETCH(node, 64);
         MACULA_FETCH(node, 128);
         MACULA_FETCH(node, 192);
     } else {
-        global const TriangleBlock8 *block = (global const TriangleBlock8 *)scene->triangles +
+        global const TriangleBlock8* block = (global const TriangleBlock8*)scene->triangles +
                                              ((uint)~child >> MACULA_LEAF_COUNT_BITS);
         MACULA_FETCH(block, 0);
         MACULA_FETCH(block, 64);
@@ -73,9 +75,8 @@ static inline void fetch_child(const TraceScene *scene, int child) {
 
 #if MACULA_ANY_HIT
 /* The child with most rays is visited first. */
-static inline void push_children(const TraceScene *scene, global const Wide8Node *node,
-                                 StreamChildren found,
-                                 StreamStack *stack) {
+static inline void push_children(const TraceScene* scene, global const Wide8Node* node,
+                                 StreamChildren found, StreamStack* stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     if (lanes == 0ul)
         return;
@@ -87,7 +88,7 @@ static inline void push_children(const TraceScene *scene, global const Wide8Node
         StreamEntry entry;
         entry.child = node->child[i];
         fetch_child(scene, entry.child);
-        entry.rays = ((const uint *)&found.rays)[i];
+        entry.rays = ((const uint*)&found.rays)[i];
         const uint count = popcount(entry.rays);
         const bool more = count > most;
         if (most != 0u)
@@ -99,15 +100,14 @@ static inline void push_children(const TraceScene *scene, global const Wide8Node
 }
 #else
 /* The nearest child is visited first. */
-static inline void push_children(const TraceScene *scene, global const Wide8Node *node,
-                                 StreamChildren found,
-                                 StreamStack *stack) {
+static inline void push_children(const TraceScene* scene, global const Wide8Node* node,
+                                 StreamChildren found, StreamStack* stack) {
     ulong lanes = lane_mask8(found.rays != 0);
     const uint base = stack->depth;
     while (lanes != 0ul) {
         const uint lane = first_lane8(lanes);
         lanes = without_lane8(lanes, lane);
-        const float near = ((const float *)&found.near)[lane];
+        const float near = ((const float*)&found.near)[lane];
         uint i = stack->depth++;
         for (; i > base && stack->near[i - 1u] < near; --i) {
             stack->near[i] = stack->near[i - 1u];
@@ -116,13 +116,13 @@ static inline void push_children(const TraceScene *scene, global const Wide8Node
         stack->near[i] = near;
         fetch_child(scene, node->child[lane]);
         stack->entry[i].child = node->child[lane];
-        stack->entry[i].rays = ((const uint *)&found.rays)[lane];
+        stack->entry[i].rays = ((const uint*)&found.rays)[lane];
     }
 }
 #endif
 
 /* Returns the rays whose query is answered. */
-static inline uint test_leaf_of_rays(const TraceScene *scene, StreamRay *stream, int leaf,
+static inline uint test_leaf_of_rays(const TraceScene* scene, StreamRay* stream, int leaf,
                                      uint rays) {
     uint answered = 0u;
     for (; rays != 0u; rays &= rays - 1u) {
@@ -134,9 +134,9 @@ static inline uint test_leaf_of_rays(const TraceScene *scene, StreamRay *stream,
 }
 
 /* Returns the rays whose query is answered. */
-static inline uint traverse_stream(const TraceScene *scene, StreamRay *stream, int root,
-                                   uint rays, uint octant) {
-    global const Wide8Node *nodes = (global const Wide8Node *)scene->nodes;
+static inline uint traverse_stream(const TraceScene* scene, StreamRay* stream, int root, uint rays,
+                                   uint octant) {
+    global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     uint answered = 0u;
     StreamStack stack;
     stack.entry[0].child = root;
@@ -149,7 +149,7 @@ static inline uint traverse_stream(const TraceScene *scene, StreamRay *stream, i
         if (left == 0u)
             continue;
         if (entry.child >= 0) {
-            global const Wide8Node *node = nodes + entry.child;
+            global const Wide8Node* node = nodes + entry.child;
             push_children(scene, node, enter_children8(node, stream, left, octant), &stack);
         } else {
             answered |= test_leaf_of_rays(scene, stream, entry.child, left);

@@ -15,20 +15,20 @@ typedef struct StreamChunk {
 #endif
 } StreamChunk;
 
-static inline TraceRay trace_ray_of(const QueuedRay *q) {
+static inline TraceRay trace_ray_of(const QueuedRay* q) {
     return make_trace_ray(q->ox, q->oy, q->oz, q->dx, q->dy, q->dz, q->t_min, q->t_max);
 }
 
 #if MACULA_INSTANCES
 /* Moves the rays that enter an instance's world box into its space; returns them by octant. */
-static inline void enter_instance_of_rays(global const Instance *instance, StreamChunk *c,
+static inline void enter_instance_of_rays(global const Instance* instance, StreamChunk* c,
                                           uint rays, uint of_octant[8]) {
     for (uint i = 0u; i < 8u; ++i)
         of_octant[i] = 0u;
     for (; rays != 0u; rays &= rays - 1u) {
         const uint k = first_ray(rays);
-        TraceQuery *query = &c->stream[k].query;
-        const QueuedRay *q = c->queued + k;
+        TraceQuery* query = &c->stream[k].query;
+        const QueuedRay* q = c->queued + k;
         if (!enter_instance(c->world + k, instance, &query->span))
             continue;
         query->ray = transform_ray(instance, q->ox, q->oy, q->oz, q->dx, q->dy, q->dz, q->t_min,
@@ -41,16 +41,16 @@ static inline void enter_instance_of_rays(global const Instance *instance, Strea
 }
 
 /* Returns the rays whose query is answered. */
-static inline uint traverse_instance_of_rays(const TraceScene *scene, StreamChunk *c, uint index,
+static inline uint traverse_instance_of_rays(const TraceScene* scene, StreamChunk* c, uint index,
                                              uint rays) {
-    global const Instance *instance = scene->instances + index;
+    global const Instance* instance = scene->instances + index;
     uint of_octant[8];
     enter_instance_of_rays(instance, c, rays, of_octant);
     uint answered = 0u;
     for (uint octant = 0u; octant < 8u; ++octant)
         if (of_octant[octant] != 0u)
-            answered |= traverse_stream(scene, c->stream, instance->root, of_octant[octant],
-                                        octant);
+            answered |=
+                traverse_stream(scene, c->stream, instance->root, of_octant[octant], octant);
     for (; rays != 0u; rays &= rays - 1u) {
         const uint k = first_ray(rays);
         c->world[k].t_max = c->stream[k].query.best.t;
@@ -58,7 +58,7 @@ static inline uint traverse_instance_of_rays(const TraceScene *scene, StreamChun
     return answered;
 }
 
-static inline void enter_binary_of_rays(global const BinaryNode *node, const StreamChunk *c,
+static inline void enter_binary_of_rays(global const BinaryNode* node, const StreamChunk* c,
                                         uint rays, uint of_child[2]) {
     of_child[0] = of_child[1] = 0u;
     for (; rays != 0u; rays &= rays - 1u) {
@@ -69,7 +69,7 @@ static inline void enter_binary_of_rays(global const BinaryNode *node, const Str
     }
 }
 
-static inline void trace_rays(const TraceScene *scene, StreamChunk *c, uint rays, uint octant) {
+static inline void trace_rays(const TraceScene* scene, StreamChunk* c, uint rays, uint octant) {
     StreamEntry stack[MACULA_MAX_DEPTH + 2];
     uint depth = 1u, answered = 0u;
     stack[0].child = 0;
@@ -85,7 +85,7 @@ static inline void trace_rays(const TraceScene *scene, StreamChunk *c, uint rays
                 scene, c, (uint)~entry.child >> MACULA_LEAF_COUNT_BITS, left);
             continue;
         }
-        global const BinaryNode *node = scene->upper_nodes + entry.child;
+        global const BinaryNode* node = scene->upper_nodes + entry.child;
         uint of_child[2];
         enter_binary_of_rays(node, c, left, of_child);
         for (uint i = 0u; i < 2u; ++i)
@@ -96,19 +96,18 @@ static inline void trace_rays(const TraceScene *scene, StreamChunk *c, uint rays
     }
 }
 #else
-static inline void trace_rays(const TraceScene *scene, StreamChunk *c, uint rays, uint octant) {
+static inline void trace_rays(const TraceScene* scene, StreamChunk* c, uint rays, uint octant) {
     traverse_stream(scene, c->stream, scene->instances[0].root, rays, octant);
 }
 #endif
 
 /* Traces `count` active rays of one octant, given by their numbers less `first`. */
-static inline void trace_chunk(const TraceScene *scene, global const RayBlock *rays, uint first,
-                               const ushort *order, uint count, uint octant,
-                               global uint *results) {
+static inline void trace_chunk(const TraceScene* scene, global const RayBlock* rays, uint first,
+                               const ushort* order, uint count, uint octant, global uint* results) {
     StreamChunk c;
     for (uint k = 0u; k < count; ++k) {
         const QueuedRay queued = load_ray(rays, first + order[k]);
-        TraceQuery *query = &c.stream[k].query;
+        TraceQuery* query = &c.stream[k].query;
         query->best = no_hit(queued.t_max);
         query->ray = trace_ray_of(&queued);
         query->first_triangle = 0u;

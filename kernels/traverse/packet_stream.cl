@@ -6,11 +6,11 @@
 #include "lib/packet_stream.h"
 
 /* Loads packet k; false when it needs no tracing in the stream. */
-static inline bool prepare_packet(const TraceScene *scene, global const RayBlock *rays, uint first,
-                                  uint count, global uint *results, PacketStream *stream, uint k) {
-    global const RayBlock *block = rays + first / MACULA_RAY_BLOCK;
-    Packet *p = stream->packet + k;
-    PacketHit *best = stream->best + k;
+static inline bool prepare_packet(const TraceScene* scene, global const RayBlock* rays, uint first,
+                                  uint count, global uint* results, PacketStream* stream, uint k) {
+    global const RayBlock* block = rays + first / MACULA_RAY_BLOCK;
+    Packet* p = stream->packet + k;
+    PacketHit* best = stream->best + k;
     *best = no_hit16(vload16(0, block->t_max));
     QueuedPacket q;
     if (load_packet(block, count - first, &q)) {
@@ -47,7 +47,7 @@ kernel void trace(TRACE_ARGUMENTS) {
     uint packets = 0u;
     for (uint k = 0u; k < MACULA_PACKETS && first + k * 16u < count; ++k)
         if (prepare_packet(&scene, rays, first + k * 16u, count, results, &stream, k)) {
-            const Packet *p = stream.packet + k;
+            const Packet* p = stream.packet + k;
             of_octant[p->octant + (p->mixed ? 8u : 0u)] |= 1u << k;
             packets |= 1u << k;
         }

@@ -13,8 +13,8 @@ typedef struct RayOrder {
     uint begin[BINS + 1u];
 } RayOrder;
 
-static inline uint bin_of(global const RayBlock *rays, uint i) {
-    global const RayBlock *block = rays + i / MACULA_RAY_BLOCK;
+static inline uint bin_of(global const RayBlock* rays, uint i) {
+    global const RayBlock* block = rays + i / MACULA_RAY_BLOCK;
     const uint lane = i % MACULA_RAY_BLOCK;
     return !ray_is_active(block->t_min[lane], block->t_max[lane])
                ? INACTIVE
@@ -24,8 +24,7 @@ static inline uint bin_of(global const RayBlock *rays, uint i) {
 }
 
 /* A counting sort. */
-static inline void sort_rays(global const RayBlock *rays, uint first, uint count,
-                             RayOrder *order) {
+static inline void sort_rays(global const RayBlock* rays, uint first, uint count, RayOrder* order) {
     uchar bin[MACULA_RAYS_PER_ITEM];
     uint next[BINS];
     for (uint b = 0u; b < BINS; ++b)
@@ -45,8 +44,8 @@ static inline void sort_rays(global const RayBlock *rays, uint first, uint count
         order->ray[next[bin[i]]++] = (ushort)i;
 }
 
-static inline void store_misses(global const RayBlock *rays, uint first, const RayOrder *order,
-                                global uint *results) {
+static inline void store_misses(global const RayBlock* rays, uint first, const RayOrder* order,
+                                global uint* results) {
     for (uint i = order->begin[INACTIVE]; i < order->begin[BINS]; ++i) {
         const uint ray = first + order->ray[i];
         const TraceHit miss = no_hit(rays[ray / MACULA_RAY_BLOCK].t_max[ray % MACULA_RAY_BLOCK]);
