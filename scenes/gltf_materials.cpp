@@ -62,6 +62,7 @@ class Converter {
 
   private:
     const tinygltf::Texture* texture(int index) const;
+    std::string image_name(int index) const;
     std::uint32_t add(int index, TextureUse use);
     glm::vec2 mean_roughness_metallic(const tinygltf::Material& source) const;
     void convert_metallic(const tinygltf::Material& source, Material& material);
@@ -79,24 +80,25 @@ const tinygltf::Texture* Converter::texture(int index) const {
     return exists ? &all[static_cast<std::size_t>(index)] : nullptr;
 }
 
+std::string Converter::image_name(int index) const {
+    const std::vector<tinygltf::Image>& all = document_.model().images;
+    if (index < 0 || static_cast<std::size_t>(index) >= all.size())
+        return "image " + std::to_string(index);
+    const tinygltf::Image& image = all[static_cast<std::size_t>(index)];
+    if (!image.uri.empty())
+        return image.uri;
+    return image.name.empty() ? "image " + std::to_string(index) : image.name;
+}
+
 std::uint32_t Converter::add(int index, TextureUse use) {
     if (index < 0)
         return kNoTexture;
     const tinygltf::Texture* source = texture(index);
     if (source == nullptr)
         document_.fail("materials", "texture " + std::to_string(index) + " does not exist");
-    TextureRequest request;
     const EncodedImage image = document_.image(source->source);
-    request.name = "image " + std::to_string(source->source);
-    if (image.missing.empty() || source->source >= 0) {
-        const auto at = static_cast<std::size_t>(std::max(source->source, 0));
-        if (at < document_.model().images.size()) {
-            const tinygltf::Image& described = document_.model().images[at];
-            request.name = !described.uri.empty()    ? described.uri
-                           : !described.name.empty() ? described.name
-                                                     : request.name;
-        }
-    }
+    TextureRequest request;
+    request.name = image_name(source->source);
     request.bytes = image.bytes;
     request.missing = image.missing;
     request.use = use;

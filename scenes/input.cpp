@@ -100,12 +100,29 @@ std::string decompress_gzip(std::string_view data, std::uint64_t max_bytes,
     return out;
 }
 
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// The entry of `folder` called `name` in any case; empty when there is none.
+std::filesystem::path find_entry(const std::filesystem::path& folder, const std::string& name) {
+    std::error_code error;
+    std::filesystem::path found;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::filesystem::path& path = entry->path();
+        if (lower(path.filename().string()) == lower(name) && (found.empty() || path < found))
+            found = path;
+    }
+    return found;
+}
+
 } // namespace
 
 Compression compression_of(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower(path.extension().string());
     if (extension == ".gz")
         return Compression::gzip;
     return extension == ".zst" ? Compression::zstd : Compression::none;
@@ -163,6 +180,22 @@ std::filesystem::path path_below(const std::filesystem::path& folder, std::strin
     if (relative.empty() || *relative.begin() == "..")
         return {};
     return folder / relative;
+}
+
+std::filesystem::path existing_path_below(const std::filesystem::path& folder,
+                                          const std::string& reference) {
+    const std::filesystem::path exact = path_below(folder, reference);
+    std::error_code error;
+    if (exact.empty() || std::filesystem::exists(exact, error))
+        return exact;
+    std::filesystem::path found = folder.empty() ? std::filesystem::path(".") : folder;
+    for (const std::filesystem::path& part : path_below({}, reference)) {
+        const std::filesystem::path here = found / part;
+        found = std::filesystem::exists(here, error) ? here : find_entry(found, part.string());
+        if (found.empty())
+            return exact;
+    }
+    return found;
 }
 
 } // namespace macula::scene

@@ -33,4 +33,9 @@ std::string read_file(const std::filesystem::path& path,
 // drive letters and `..` beyond the folder. Backslashes count as slashes.
 std::filesystem::path path_below(const std::filesystem::path& folder, std::string reference);
 
+// The same, but where no such file exists the first one, in alphabetical order, whose name differs
+// in the case of letters only: what exporters on other systems write.
+std::filesystem::path existing_path_below(const std::filesystem::path& folder,
+                                          const std::string& reference);
+
 } // namespace macula::scene

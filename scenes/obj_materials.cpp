@@ -108,7 +108,7 @@ void ObjMaterials::load_libraries(std::string_view names) {
 }
 
 bool ObjMaterials::load_library(const std::string& name) {
-    const std::filesystem::path path = path_below(folder_, name);
+    const std::filesystem::path path = existing_path_below(folder_, name);
     std::error_code error;
     if (path.empty() || !std::filesystem::is_regular_file(path, error))
         return false;
@@ -136,7 +136,7 @@ void ObjMaterials::parse(const std::string& text, const std::string& name) {
                                           "': the texture options -s and -o are ignored");
             TextureRequest request;
             request.name = forward_slashes(file);
-            request.file = path_below(folder_, file);
+            request.file = existing_path_below(folder_, file);
             if (request.file.empty())
                 request.missing = "the path leads out of the scene's folder";
             request.use = use;

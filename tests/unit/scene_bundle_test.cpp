@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/camera_path.hpp"
 #include "scenes/load.hpp"
 #include "scenes/occupancy.hpp"
-#include "scenes/camera_path.hpp"
 
 namespace macula::scene {
 namespace {

@@ -163,6 +163,14 @@ TEST_F(Obj, LibraryNamesMayHoldBlanksAndBackslashes) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST_F(Obj, NamesMayDifferInTheCaseOfLetters) {
+    write("Maps/Materials.MTL", "newmtl a\nKd 0 1 0\n");
+    const Scene scene =
+        load_text("a.obj", "mtllib maps/materials.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n");
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.materials[0].diffuse, glm::vec3(0, 1, 0));
+}
+
 TEST_F(Obj, MissingLibraryAndMaterialAreWarnedOf) {
     const Scene scene =
         load_text("a.obj", "mtllib gone.mtl\n" + kTriangle + "f 1 2 3\nusemtl gone\nf 1 2 3\n");
