@@ -11,6 +11,8 @@ namespace macula::scene {
 namespace {
 
 constexpr int kResolution = 96;
+// Of the diagonal: in closed spaces the usual 15 % would darken every surface.
+constexpr float kInteriorOcclusion = 0.06f;
 constexpr float kObjectFov = 45.0f, kInteriorFov = 75.0f; // degrees, vertical
 
 // `count` unit directions spread evenly over the sphere (a Fibonacci lattice).
@@ -196,11 +198,6 @@ Light ceiling_light(const Occupancy& grid, const Camera& camera, float along) {
     return light;
 }
 
-Camera default_camera(const Occupancy& grid) {
-    const std::vector<FreePoint> points = free_points(grid);
-    return is_interior(points) ? interior_camera(grid, points) : object_camera(grid.bounds());
-}
-
 std::vector<Light> default_lights(const Occupancy& grid, const Camera& camera) {
     const Bounds& box = grid.bounds();
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
@@ -247,8 +244,14 @@ void add_default_view(Scene& scene) {
     if (!scene.lights.empty() && !scene.cameras.empty())
         return;
     const Occupancy grid(scene, kResolution);
-    if (scene.cameras.empty())
-        scene.cameras.push_back(default_camera(grid));
+    if (scene.cameras.empty()) {
+        const std::vector<FreePoint> points = free_points(grid);
+        const bool interior = is_interior(points);
+        scene.cameras.push_back(interior ? interior_camera(grid, points)
+                                         : object_camera(grid.bounds()));
+        if (interior && scene.ambient_occlusion_radius == 0.0f)
+            scene.ambient_occlusion_radius = kInteriorOcclusion * grid.bounds().diagonal();
+    }
     if (scene.lights.empty())
         scene.lights = default_lights(grid, scene.cameras.front());
 }

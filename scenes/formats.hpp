@@ -8,6 +8,9 @@
 
 namespace macula::scene {
 
+// What rays that miss see in files of formats that do not say: a dim sky.
+inline constexpr glm::vec3 kDefaultSky{0.2f, 0.25f, 0.32f};
+
 // `text` is the unpacked file; `path` names it in messages, and its folder holds what it refers to.
 Scene load_obj(const std::string& text, const std::filesystem::path& path,
                const LoadOptions& options);

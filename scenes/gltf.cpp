@@ -262,6 +262,7 @@ Scene load_gltf(const std::string& bytes, const std::filesystem::path& path, boo
     const GltfDocument document(bytes, path, binary, options.max_input_bytes);
     Scene scene;
     scene.name = path.stem().string();
+    scene.background = kDefaultSky;
     GltfLoader(document, scene, options.textures).load();
     return scene;
 }

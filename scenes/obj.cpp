@@ -241,6 +241,7 @@ tinyobj::callback_t callbacks() {
 Scene load_obj(const std::string& text, const std::filesystem::path& path,
                const LoadOptions& options) {
     Scene scene;
+    scene.background = kDefaultSky;
     TextureSet textures(scene, options.textures);
     ObjMaterials materials(scene, textures, path.parent_path(), options.max_input_bytes);
     load_material_libraries(text, materials);
