@@ -16,15 +16,15 @@ MACULA_SHARED_BEGIN
 #define MACULA_TILE_SLOTS 1024u
 #define MACULA_NO_PIXEL 0xffffffffu
 
-MACULA_INLINE uint tiles_across(uint pixels) {
+MACULA_ALWAYS_INLINE uint tiles_across(uint pixels) {
     return (pixels + MACULA_TILE - 1u) / MACULA_TILE;
 }
 
-MACULA_INLINE uint slot_count(uint width, uint height) {
+MACULA_ALWAYS_INLINE uint slot_count(uint width, uint height) {
     return tiles_across(width) * tiles_across(height) * MACULA_TILE_SLOTS;
 }
 
-MACULA_INLINE void pixel_of_slot(uint slot, uint width, uint* x, uint* y) {
+MACULA_ALWAYS_INLINE void pixel_of_slot(uint slot, uint width, uint* x, uint* y) {
     const uint tile = slot / MACULA_TILE_SLOTS, across = tiles_across(width);
     const uint packet = (slot >> 4) & 63u, lane = slot & 15u;
     const uint packet_x = (packet & 1u) | ((packet >> 1) & 2u) | ((packet >> 2) & 4u);
@@ -33,7 +33,7 @@ MACULA_INLINE void pixel_of_slot(uint slot, uint width, uint* x, uint* y) {
     *y = (tile / across) * MACULA_TILE + packet_y * 4u + (lane >> 2);
 }
 
-MACULA_INLINE uint slot_of_pixel(uint x, uint y, uint width) {
+MACULA_ALWAYS_INLINE uint slot_of_pixel(uint x, uint y, uint width) {
     const uint tile = (y / MACULA_TILE) * tiles_across(width) + x / MACULA_TILE;
     const uint px = (x >> 2) & 7u, py = (y >> 2) & 7u;
     const uint packet = (px & 1u) | ((py & 1u) << 1) | ((px & 2u) << 1) | ((py & 2u) << 2) |
@@ -43,7 +43,7 @@ MACULA_INLINE uint slot_of_pixel(uint x, uint y, uint width) {
 
 /* Where sample `sample` of a pixel lies inside it, in [0, 1)^2: the middle of a cell of the regular
  * grid (of the pixel itself for one sample), else a hashed offset. */
-MACULA_INLINE void subpixel_offset(uint key, uint sample, uint grid, float* x, float* y) {
+MACULA_ALWAYS_INLINE void subpixel_offset(uint key, uint sample, uint grid, float* x, float* y) {
     if (grid > 0u) {
         const float cell = m_divide(0.5f, (float)grid);
         *x = (float)(2u * (sample % grid) + 1u) * cell;
@@ -54,13 +54,13 @@ MACULA_INLINE void subpixel_offset(uint key, uint sample, uint grid, float* x, f
     }
 }
 
-MACULA_INLINE float3 vector_at(MACULA_GLOBAL const float* v) {
+MACULA_ALWAYS_INLINE float3 vector_at(MACULA_GLOBAL const float* v) {
     return make3(v[0], v[1], v[2]);
 }
 
 /* Direction through the image point (x, y) in pixels; its component along `forward` is 1. */
-MACULA_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera, uint width, uint height,
-                                      float x, float y) {
+MACULA_ALWAYS_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera, uint width,
+                                             uint height, float x, float y) {
     const float step_x = m_divide(camera->tan_right + camera->tan_left, (float)width);
     const float step_y = m_divide(camera->tan_up + camera->tan_down, (float)height);
     const float sx = fma(x, step_x, -camera->tan_left);
@@ -71,8 +71,8 @@ MACULA_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera, uint w
 
 /* The image point in pixels to which the vector from the camera's origin projects; false when it
  * does not lie in front of the camera. */
-MACULA_INLINE bool camera_project(MACULA_GLOBAL const Camera* camera, uint width, uint height,
-                                  float3 view, float* x, float* y) {
+MACULA_ALWAYS_INLINE bool camera_project(MACULA_GLOBAL const Camera* camera, uint width,
+                                         uint height, float3 view, float* x, float* y) {
     const float z = dot3(view, vector_at(camera->forward));
     if (!(z > 1e-20f))
         return false;

@@ -24,8 +24,8 @@ typedef struct LightSample {
     float weight;
 } LightSample;
 
-MACULA_INLINE void sample_towards_point(MACULA_GLOBAL const Light* light, float3 target,
-                                        float3 from, float margin, LightSample* out) {
+MACULA_ALWAYS_INLINE void sample_towards_point(MACULA_GLOBAL const Light* light, float3 target,
+                                               float3 from, float margin, LightSample* out) {
     const float3 offset = target - from;
     const float squared = dot3(offset, offset);
     if (!(squared > 1e-30f))
@@ -39,7 +39,7 @@ MACULA_INLINE void sample_towards_point(MACULA_GLOBAL const Light* light, float3
                       : 1.0f;
 }
 
-MACULA_INLINE void emit_cosine(MACULA_GLOBAL const Light* light, LightSample* out) {
+MACULA_ALWAYS_INLINE void emit_cosine(MACULA_GLOBAL const Light* light, LightSample* out) {
     const float cosine = -dot3(out->unit_direction, vector_at(light->direction));
     out->weight = cosine > 0.0f ? out->weight * cosine : 0.0f;
     out->t_max = cosine > 0.0f ? out->t_max : -1.0f;
@@ -47,8 +47,8 @@ MACULA_INLINE void emit_cosine(MACULA_GLOBAL const Light* light, LightSample* ou
 
 /* The sphere's radiance is colour / (pi r^2); times the solid angle 2 pi (1 - cos) of its cone:
  * pi cancels. */
-MACULA_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, float3 from, float u, float v,
-                                 LightSample* out) {
+MACULA_ALWAYS_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, float3 from, float u,
+                                        float v, LightSample* out) {
     const float3 offset = vector_at(light->position) - from;
     const float squared = dot3(offset, offset);
     const float radius_squared = light->radius * light->radius;
@@ -74,9 +74,9 @@ MACULA_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, float3 from, 
 
 /* Sample `index` of the light's strata, make_strata(columns, samples); `sample` counts the samples
  * of the pixel. */
-MACULA_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* strata, float3 from,
-                                uint key, uint sample, uint dimension, uint index,
-                                LightSample* out) {
+MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* strata,
+                                       float3 from, uint key, uint sample, uint dimension,
+                                       uint index, LightSample* out) {
     out->direction = make3(0.0f, 0.0f, 1.0f);
     out->unit_direction = out->direction;
     out->t_max = -1.0f;
@@ -108,7 +108,7 @@ MACULA_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* 
 
 /* False only where no sample of the light can reach the front of a surface with unit normal n at
  * `from`: then no shadow ray is queued. */
-MACULA_INLINE bool light_may_reach(MACULA_GLOBAL const Light* light, float3 from, float3 n) {
+MACULA_ALWAYS_INLINE bool light_may_reach(MACULA_GLOBAL const Light* light, float3 from, float3 n) {
     if (light->kind == MACULA_LIGHT_DIRECTIONAL)
         return dot3(n, vector_at(light->direction)) < 0.0f;
     const float3 offset = vector_at(light->position) - from;

@@ -12,7 +12,8 @@
 MACULA_SHARED_BEGIN
 
 /* max(0, r . v)^shininess with r the direction to the light mirrored at n. All unit vectors. */
-MACULA_INLINE float phong_lobe(float3 n, float3 to_light, float3 to_viewer, float shininess) {
+MACULA_ALWAYS_INLINE float phong_lobe(float3 n, float3 to_light, float3 to_viewer,
+                                      float shininess) {
     const float3 mirrored = scale_add3(n, 2.0f * dot3(n, to_light), -to_light);
     const float cosine = m_min(dot3(mirrored, to_viewer), 1.0f);
     /* Below this the power is far under one part in 2^24 of the peak for any shininess >= 1. */

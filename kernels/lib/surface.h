@@ -24,41 +24,41 @@ typedef struct SurfacePoint {
     uint material;
 } SurfacePoint;
 
-MACULA_INLINE float3 transform_vector(MACULA_GLOBAL const float* m, float3 v) {
+MACULA_ALWAYS_INLINE float3 transform_vector(MACULA_GLOBAL const float* m, float3 v) {
     return make3(fma(m[0], v.x, fma(m[1], v.y, m[2] * v.z)),
                  fma(m[4], v.x, fma(m[5], v.y, m[6] * v.z)),
                  fma(m[8], v.x, fma(m[9], v.y, m[10] * v.z)));
 }
 
-MACULA_INLINE float3 transform_point(MACULA_GLOBAL const float* m, float3 p) {
+MACULA_ALWAYS_INLINE float3 transform_point(MACULA_GLOBAL const float* m, float3 p) {
     return make3(fma(m[0], p.x, fma(m[1], p.y, fma(m[2], p.z, m[3]))),
                  fma(m[4], p.x, fma(m[5], p.y, fma(m[6], p.z, m[7]))),
                  fma(m[8], p.x, fma(m[9], p.y, fma(m[10], p.z, m[11]))));
 }
 
 /* Normals go by the transpose of the inverse: m is object_from_world. */
-MACULA_INLINE float3 transform_normal(MACULA_GLOBAL const float* m, float3 n) {
+MACULA_ALWAYS_INLINE float3 transform_normal(MACULA_GLOBAL const float* m, float3 n) {
     return make3(fma(m[0], n.x, fma(m[4], n.y, m[8] * n.z)),
                  fma(m[1], n.x, fma(m[5], n.y, m[9] * n.z)),
                  fma(m[2], n.x, fma(m[6], n.y, m[10] * n.z)));
 }
 
 /* The sizes of the terms that a transformed point is summed from. */
-MACULA_INLINE float3 transform_size(MACULA_GLOBAL const float* m, float3 p) {
+MACULA_ALWAYS_INLINE float3 transform_size(MACULA_GLOBAL const float* m, float3 p) {
     return make3(fma(fabs(m[0]), p.x, fma(fabs(m[1]), p.y, fma(fabs(m[2]), p.z, fabs(m[3])))),
                  fma(fabs(m[4]), p.x, fma(fabs(m[5]), p.y, fma(fabs(m[6]), p.z, fabs(m[7])))),
                  fma(fabs(m[8]), p.x, fma(fabs(m[9]), p.y, fma(fabs(m[10]), p.z, fabs(m[11])))));
 }
 
-MACULA_INLINE float3 largest_of_three(float3 a, float3 b, float3 c) {
+MACULA_ALWAYS_INLINE float3 largest_of_three(float3 a, float3 b, float3 c) {
     return make3(m_max(m_max(fabs(a.x), fabs(b.x)), fabs(c.x)),
                  m_max(m_max(fabs(a.y), fabs(b.y)), fabs(c.y)),
                  m_max(m_max(fabs(a.z), fabs(b.z)), fabs(c.z)));
 }
 
 /* The instance that owns a scene-wide triangle id: the last one whose first id is not above it. */
-MACULA_INLINE uint instance_of_triangle(MACULA_GLOBAL const Instance* instances, uint count,
-                                        uint triangle) {
+MACULA_ALWAYS_INLINE uint instance_of_triangle(MACULA_GLOBAL const Instance* instances, uint count,
+                                               uint triangle) {
     uint low = 0u, high = count;
     while (high - low > 1u) {
         const uint middle = (low + high) / 2u;
@@ -77,7 +77,7 @@ typedef struct SurfaceCorners {
     float uv_area; /* twice the signed area in the texture */
 } SurfaceCorners;
 
-MACULA_INLINE void surface_tangents(const SurfaceCorners* c, SurfacePoint* s) {
+MACULA_ALWAYS_INLINE void surface_tangents(const SurfaceCorners* c, SurfacePoint* s) {
     const float3 zero = make3(0.0f, 0.0f, 0.0f);
     const float sign = c->uv_area < 0.0f ? -1.0f : 1.0f;
     const float3 along_u = fma3(c->e1, splat3(c->dv2), -(c->e2 * c->dv1)) * sign;
@@ -87,7 +87,7 @@ MACULA_INLINE void surface_tangents(const SurfaceCorners* c, SurfacePoint* s) {
 }
 
 /* Akenine-Moeller et al. 2019, equation 2, with the texture's own size left to the look-up. */
-MACULA_INLINE float surface_log2_density(float uv_area, float world_area) {
+MACULA_ALWAYS_INLINE float surface_log2_density(float uv_area, float world_area) {
     if (!(uv_area > 1e-30f) || !(world_area > 1e-30f))
         return -60.0f; /* no texture coordinates: the finest level */
     return 0.5f * (m_log2(uv_area) - m_log2(world_area));
@@ -95,10 +95,11 @@ MACULA_INLINE float surface_log2_density(float uv_area, float world_area) {
 
 /* `hit_u`, `hit_v`: barycentric weights of the second and third vertex. `direction`: of the ray,
  * any length. */
-MACULA_INLINE void surface_point(MACULA_GLOBAL const Instance* instance,
-                                 MACULA_GLOBAL const SurfaceTriangle* triangles,
-                                 MACULA_GLOBAL const SurfaceVertex* vertices, uint triangle,
-                                 float hit_u, float hit_v, float3 direction, SurfacePoint* s) {
+MACULA_ALWAYS_INLINE void surface_point(MACULA_GLOBAL const Instance* instance,
+                                        MACULA_GLOBAL const SurfaceTriangle* triangles,
+                                        MACULA_GLOBAL const SurfaceVertex* vertices, uint triangle,
+                                        float hit_u, float hit_v, float3 direction,
+                                        SurfacePoint* s) {
     const SurfaceTriangle t =
         triangles[instance->mesh_triangle + (triangle - instance->first_triangle)];
     MACULA_GLOBAL const SurfaceVertex* a = vertices + t.vertex[0];
@@ -145,7 +146,7 @@ MACULA_INLINE void surface_point(MACULA_GLOBAL const Instance* instance,
 
 /* log2 of the ray cone's footprint in units of the whole image: the cone's width at the hit over
  * the cosine of incidence, times the triangle's texel density. */
-MACULA_INLINE float surface_lod(const SurfacePoint* s, float cone_width, float3 direction) {
+MACULA_ALWAYS_INLINE float surface_lod(const SurfacePoint* s, float cone_width, float3 direction) {
     const float squared = dot3(direction, direction);
     const float cosine = fabs(dot3(s->geometric_normal, direction)) * m_inverse_sqrt(squared);
     const float width = clamped(cone_width, 1e-18f, 1e18f);
@@ -153,7 +154,7 @@ MACULA_INLINE float surface_lod(const SurfacePoint* s, float cone_width, float3 
 }
 
 /* The normal of a tangent-space map turned into the world, kept above the geometric surface. */
-MACULA_INLINE float3 mapped_normal(const SurfacePoint* s, float3 texel) {
+MACULA_ALWAYS_INLINE float3 mapped_normal(const SurfacePoint* s, float3 texel) {
     const float3 n = s->shading_normal;
     const float3 m = scale_add3(texel, 2.0f, splat3(-1.0f));
     const float3 bent = scale_add3(s->tangent, m.x, scale_add3(s->bitangent, m.y, n * m.z));

@@ -17,7 +17,7 @@ typedef struct TextureTables {
 } TextureTables;
 
 /* The coordinate brought into [0, 1] as the wrap mode says. */
-MACULA_INLINE float wrapped_coordinate(float x, uint wrap) {
+MACULA_ALWAYS_INLINE float wrapped_coordinate(float x, uint wrap) {
     if (wrap == MACULA_WRAP_CLAMP)
         return clamped(x, 0.0f, 1.0f);
     if (wrap == MACULA_WRAP_REPEAT)
@@ -28,7 +28,7 @@ MACULA_INLINE float wrapped_coordinate(float x, uint wrap) {
 
 /* Index of a texel one step outside [0, size): repeat comes back at the other end; the mirrored
  * neighbour of an edge texel is that texel itself, as with clamp. */
-MACULA_INLINE uint wrapped_texel(int i, uint size, uint wrap) {
+MACULA_ALWAYS_INLINE uint wrapped_texel(int i, uint size, uint wrap) {
     const int last = (int)size - 1;
     if (i < 0)
         return wrap == MACULA_WRAP_REPEAT ? (uint)last : 0u;
@@ -37,15 +37,15 @@ MACULA_INLINE uint wrapped_texel(int i, uint size, uint wrap) {
     return (uint)i;
 }
 
-MACULA_INLINE float3 decoded_texel(const TextureTables* tables, uint texel, uint decode) {
+MACULA_ALWAYS_INLINE float3 decoded_texel(const TextureTables* tables, uint texel, uint decode) {
     return make3(tables->decode[decode + (texel & 255u)],
                  tables->decode[decode + ((texel >> 8) & 255u)],
                  tables->decode[decode + ((texel >> 16) & 255u)]);
 }
 
 /* Bilinear in one level; (u, v) already wrapped. Texel (i, j) is centred at (i + 0.5, j + 0.5). */
-MACULA_INLINE float3 bilinear(const TextureTables* tables, const ImageTexture* texture, uint level,
-                              float u, float v) {
+MACULA_ALWAYS_INLINE float3 bilinear(const TextureTables* tables, const ImageTexture* texture,
+                                     uint level, float u, float v) {
     const ImageLevel l = tables->levels[texture->first_level + level];
     const uint wrap_u = texture->wrap & 3u, wrap_v = (texture->wrap >> 2) & 3u;
     const float x = fma(u, (float)l.width, -0.5f), y = fma(v, (float)l.height, -0.5f);
@@ -65,8 +65,8 @@ MACULA_INLINE float3 bilinear(const TextureTables* tables, const ImageTexture* t
 
 /* The image's RGB at (u, v). `lod` is log2 of the footprint in units of the whole image, so that
  * adding log2_size gives the level. */
-MACULA_INLINE float3 sample_texture(const TextureTables* tables, uint index, float u, float v,
-                                    float lod) {
+MACULA_ALWAYS_INLINE float3 sample_texture(const TextureTables* tables, uint index, float u,
+                                           float v, float lod) {
     const ImageTexture texture = tables->textures[index];
     const float coarsest = (float)(texture.level_count - 1u);
     const float level = clamped(lod + texture.log2_size, 0.0f, coarsest);

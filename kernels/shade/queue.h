@@ -9,29 +9,29 @@
 #include "shared/ray.h"
 
 /* Entries left at `first`. */
-static inline uint batch_count(uint queue_count, uint first) {
+MACULA_ALWAYS_INLINE uint batch_count(uint queue_count, uint first) {
     return queue_count > first ? queue_count - first : 0u;
 }
 
 /* Entries rounded up to whole ray blocks. */
-static inline uint padded_count(uint count) {
+MACULA_ALWAYS_INLINE uint padded_count(uint count) {
     return (count + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK * MACULA_RAY_BLOCK;
 }
 
 /* Rays of a batch of at most `capacity` entries (a multiple of MACULA_RAY_BLOCK). */
-static inline uint batch_rays(uint count, uint samples, uint capacity) {
+MACULA_ALWAYS_INLINE uint batch_rays(uint count, uint samples, uint capacity) {
     const uint padded = padded_count(count);
     return (padded < capacity ? padded : capacity) * samples;
 }
 
-static inline uint queued_ray(uint entry, uint index, uint samples) {
+MACULA_ALWAYS_INLINE uint queued_ray(uint entry, uint index, uint samples) {
     const uint block = entry / MACULA_RAY_BLOCK * samples + index;
     return block * MACULA_RAY_BLOCK + entry % MACULA_RAY_BLOCK;
 }
 
 /* t_max < 0 makes the ray inactive. */
-static inline void store_ray(global RayBlock* rays, uint ray, float3 origin, float3 direction,
-                             float t_max) {
+MACULA_ALWAYS_INLINE void store_ray(global RayBlock* rays, uint ray, float3 origin,
+                                    float3 direction, float t_max) {
     global RayBlock* block = rays + ray / MACULA_RAY_BLOCK;
     const uint lane = ray % MACULA_RAY_BLOCK;
     block->origin_x[lane] = origin.x;

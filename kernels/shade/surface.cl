@@ -2,7 +2,8 @@
 #include "lib/surface.h"
 #include "shared/ray.h"
 
-static float2 motion_of(global const FrameParams* frame, float3 view, float3 previous_view) {
+MACULA_ALWAYS_INLINE float2 motion_of(global const FrameParams* frame, float3 view,
+                                      float3 previous_view) {
     float x, y, previous_x, previous_y;
     const bool seen = camera_project(&frame->camera, frame->width, frame->height, view, &x, &y) &&
                       camera_project(&frame->previous_camera, frame->width, frame->height,
@@ -12,8 +13,8 @@ static float2 motion_of(global const FrameParams* frame, float3 view, float3 pre
                 : (float2)(MACULA_NO_MOTION, MACULA_NO_MOTION);
 }
 
-static float3 textured(const TextureTables* tables, global const float* colour, uint texture,
-                       const SurfacePoint* s, float lod) {
+MACULA_ALWAYS_INLINE float3 textured(const TextureTables* tables, global const float* colour,
+                                     uint texture, const SurfacePoint* s, float lod) {
     const float3 base = vector_at(colour);
     return texture == MACULA_NO_TEXTURE ? base
                                         : base * sample_texture(tables, texture, s->u, s->v, lod);
@@ -34,8 +35,8 @@ typedef struct SurfaceOutputs {
     global float2* motion; /* pixels: position in the last frame minus position in this one */
 } SurfaceOutputs;
 
-static void write_background(const SurfaceOutputs* out, uint slot, global const FrameParams* frame,
-                             float3 direction) {
+MACULA_ALWAYS_INLINE void write_background(const SurfaceOutputs* out, uint slot,
+                                           global const FrameParams* frame, float3 direction) {
     const float4 zero = (float4)(0.0f);
     if (out->depth)
         out->depth[slot] = MACULA_BACKGROUND_DEPTH;
@@ -59,9 +60,10 @@ static void write_background(const SurfaceOutputs* out, uint slot, global const 
         out->motion[slot] = motion_of(frame, direction, direction);
 }
 
-static void write_surface(const SurfaceOutputs* out, uint slot, global const FrameParams* frame,
-                          const SurfacePoint* s, const TextureTables* tables,
-                          global const SurfaceMaterial* material, float lod) {
+MACULA_ALWAYS_INLINE void write_surface(const SurfaceOutputs* out, uint slot,
+                                        global const FrameParams* frame, const SurfacePoint* s,
+                                        const TextureTables* tables,
+                                        global const SurfaceMaterial* material, float lod) {
     if (out->position)
         out->position[slot] = (float4)(s->position, s->offset);
     if (out->geometric_normal)

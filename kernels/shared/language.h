@@ -14,6 +14,10 @@
 #define MACULA_GLOBAL global
 #define MACULA_CONSTANT constant
 #define MACULA_INLINE static inline
+/* For functions that write through pointers to private variables in divergent code: Intel's CPU
+ * vectoriser mixes up such variables when the function is not inlined (docs/arithmetic.md asks for
+ * the same bits on every runtime). */
+#define MACULA_ALWAYS_INLINE static inline __attribute__((always_inline))
 #define MACULA_ASSERT_SIZE(type, bytes)                                                            \
     typedef char macula_size_of_##type[(sizeof(type) == (bytes)) ? 1 : -1]
 
@@ -29,6 +33,7 @@
 #define MACULA_GLOBAL
 #define MACULA_CONSTANT const
 #define MACULA_INLINE inline
+#define MACULA_ALWAYS_INLINE inline
 #define MACULA_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
 
 namespace macula::shared {
