@@ -38,14 +38,11 @@ static inline PacketHit no_hit16(float16 t_max) {
     return h;
 }
 
-/* How much the directions of a packet may differ, relative to their greatest component. */
-#ifndef MACULA_COHERENT_SPREAD
+/* Sums of the spreads of the direction components, relative to the greatest component. Above the
+ * first, rays are traced one by one; above the second, lanes are tested at every node and not only
+ * at leaves. Rays towards a light have several origins, and so looser frusta. */
 #define MACULA_COHERENT_SPREAD 0.2f
-#endif
-
-#ifndef MACULA_WIDE_SPREAD
-#define MACULA_WIDE_SPREAD 0.01f
-#endif
+#define MACULA_WIDE_SPREAD (MACULA_ANY_HIT ? 0.01f : 0.02f)
 
 static inline float spread_of(const PacketBounds* b) {
     float size = 0.0f, spread = 0.0f;
@@ -70,6 +67,7 @@ static inline void trace_packet(const TraceScene* scene, global const RayBlock* 
                                 uint count, global uint* results) {
     global const RayBlock* block = rays + first / MACULA_RAY_BLOCK;
     PacketHit best = no_hit16(vload16(0, block->t_max));
+    fetch_block(block + 1);
     QueuedPacket q;
     if (load_packet(block, count - first, &q)) {
         Packet p;

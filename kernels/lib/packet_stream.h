@@ -67,16 +67,6 @@ static inline uint visit_node(const TraceScene* scene, const PacketStream* strea
     return depth;
 }
 
-/* The packets with a lane that may still find something closer than `near`. */
-static inline uint packets_beyond(const PacketStream* stream, uint packets, float near) {
-    uint kept = 0u;
-    for (; packets != 0u; packets &= packets - 1u) {
-        const uint k = first_bit(packets);
-        kept |= near <= stream->frustum[k].t_max ? 1u << k : 0u;
-    }
-    return kept;
-}
-
 /* The packets with a lane that may enter a box. */
 static inline uint packets_in_box(const PacketStream* stream, uint packets, bool mixed, uint octant,
                                   global const Wide8Node* node, uint i) {
@@ -114,8 +104,8 @@ static inline void traverse_packets(const TraceScene* scene, const PacketInstanc
         const uint i = stack.slot[depth] & 7u;
         const int child = node->child[i];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;
-        const uint left = packets_in_box(stream, by_lane, mixed, octant, node, i) |
-                          packets_beyond(stream, packets & ~by_lane, stack.near[depth]);
+        const uint left =
+            (packets & ~by_lane) | packets_in_box(stream, by_lane, mixed, octant, node, i);
         if (left == 0u)
             continue;
         if (child >= 0)

@@ -45,12 +45,14 @@ kernel void trace(TRACE_ARGUMENTS) {
     /* The octants, and again those of packets with directions of both signs along some axis. */
     uint of_octant[16] = {0u};
     uint packets = 0u;
-    for (uint k = 0u; k < MACULA_PACKETS && first + k * 16u < count; ++k)
+    for (uint k = 0u; k < MACULA_PACKETS && first + k * 16u < count; ++k) {
+        fetch_block(rays + (first / 16u + MACULA_PACKETS + k));
         if (prepare_packet(&scene, rays, first + k * 16u, count, results, &stream, k)) {
             const Packet* p = stream.packet + k;
             of_octant[p->octant + (p->mixed ? 8u : 0u)] |= 1u << k;
             packets |= 1u << k;
         }
+    }
     const PacketInstance instance = instance_of(instances);
     for (uint i = 0u; i < 16u; ++i)
         if (of_octant[i] != 0u)
