@@ -112,10 +112,12 @@ void check_extensions(const tinygltf::Model& model, const std::string& name) {
         "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
         "KHR_materials_transmission", "KHR_materials_unlit",
         "KHR_mesh_quantization",      "KHR_texture_transform"};
-    for (const std::string& extension : model.extensionsRequired)
-        if (!kKnown.contains(extension))
-            throw SceneError(name + ": requires the glTF extension " + extension +
-                             ", which is not supported");
+    const auto unknown =
+        std::find_if(model.extensionsRequired.begin(), model.extensionsRequired.end(),
+                     [](const std::string& extension) { return !kKnown.contains(extension); });
+    if (unknown != model.extensionsRequired.end())
+        throw SceneError(name + ": requires the glTF extension " + *unknown +
+                         ", which is not supported");
 }
 
 } // namespace

@@ -184,7 +184,7 @@ std::filesystem::path path_below(const std::filesystem::path& folder, std::strin
 
 std::filesystem::path existing_path_below(const std::filesystem::path& folder,
                                           const std::string& reference) {
-    const std::filesystem::path exact = path_below(folder, reference);
+    std::filesystem::path exact = path_below(folder, reference);
     std::error_code error;
     if (exact.empty() || std::filesystem::exists(exact, error))
         return exact;

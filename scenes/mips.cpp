@@ -30,6 +30,8 @@ std::vector<std::uint8_t> make_srgb_from_linear() {
     return table;
 }
 
+constexpr float kHalf = 0.5f; // rounds to nearest what is not negative
+
 struct Span {
     std::uint32_t first = 0, count = 0; // at most 3
     float weight[3] = {0, 0, 0};        // sum 1
@@ -94,13 +96,13 @@ class Halver {
         }
         for (int c = 0; c < 3; ++c)
             out[c] = encode(alpha > 0.0f ? weighted[c] / alpha : plain[c]);
-        out[3] = static_cast<std::uint8_t>(std::min(255.0f, alpha + 0.5f));
+        out[3] = static_cast<std::uint8_t>(std::min(255.0f, alpha + kHalf));
     }
 
     std::uint8_t encode(float value) const {
         const float bounded = std::min(value, 1.0f);
-        return srgb_ ? encoded_[static_cast<std::size_t>(bounded * 65535.0f + 0.5f)]
-                     : static_cast<std::uint8_t>(bounded * 255.0f + 0.5f);
+        return srgb_ ? encoded_[static_cast<std::size_t>(bounded * 65535.0f + kHalf)]
+                     : static_cast<std::uint8_t>(bounded * 255.0f + kHalf);
     }
 
     static inline const std::array<float, 256> linear_ = make_linear_from_srgb();

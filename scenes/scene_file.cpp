@@ -36,7 +36,7 @@ std::filesystem::path find_file(const TomlTable& table, const std::string& wante
         return wanted;
     std::string tried;
     for (const std::filesystem::path& folder : search_folders(file, options)) {
-        const std::filesystem::path candidate = folder / wanted;
+        std::filesystem::path candidate = folder / wanted;
         if (std::filesystem::is_regular_file(candidate, error))
             return candidate;
         tried += (tried.empty() ? "" : ", ") + folder.string();

@@ -66,12 +66,12 @@ bool is_ear(const std::vector<glm::dvec2>& flat, const std::vector<unsigned>& ri
     return true;
 }
 
+// At least 4 corners.
 void clip_ears(std::span<const glm::vec3> corners, std::vector<glm::uvec3>& triangles) {
     const std::vector<glm::dvec2> flat = project(corners);
     std::vector<unsigned> ring(corners.size());
     std::iota(ring.begin(), ring.end(), 0u);
-    while (ring.size() > 3) {
-        const std::size_t n = ring.size();
+    for (std::size_t n = ring.size(); n > 3; --n) {
         std::size_t ear = 0;
         while (ear < n && !is_ear(flat, ring, ear))
             ++ear;
