@@ -91,27 +91,41 @@ static inline void test_leaf_of_packets(const TraceScene* scene, const PacketIns
     }
 }
 
-static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
-                                    PacketStream* stream, int root, uint all, uint octant,
-                                    bool mixed) {
+/* Takes the next inner node that some packets reach from the stack, testing the leaves before it;
+ * returns the packets, none when the stack is empty. That packets may be done is left to the box
+ * tests: a mask of them would make every step wait for the hits of the last one. */
+static inline uint next_node(const TraceScene* scene, const PacketInstance* instance,
+                             PacketStream* stream, uint octant, bool mixed,
+                             const PacketStreamStack* stack, uint* depth, uint* index) {
     global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
-    PacketStreamStack stack;
-    uint depth = visit_node(scene, stream, (uint)root, all, octant, mixed, &stack, 0u);
-    while (depth != 0u) {
-        --depth;
-        const uint packets = stack.packets[depth];
-        global const Wide8Node* node = nodes + (stack.slot[depth] >> 3);
-        const uint i = stack.slot[depth] & 7u;
+    while (*depth != 0u) {
+        const uint top = --(*depth);
+        const uint packets = stack->packets[top];
+        global const Wide8Node* node = nodes + (stack->slot[top] >> 3);
+        const uint i = stack->slot[top] & 7u;
         const int child = node->child[i];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;
         const uint left =
             (packets & ~by_lane) | packets_in_box(stream, by_lane, mixed, octant, node, i);
         if (left == 0u)
             continue;
-        if (child >= 0)
-            depth = visit_node(scene, stream, (uint)child, left, octant, mixed, &stack, depth);
-        else
-            test_leaf_of_packets(scene, instance, stream, child, left);
+        if (child >= 0) {
+            *index = (uint)child;
+            return left;
+        }
+        test_leaf_of_packets(scene, instance, stream, child, left);
+    }
+    return 0u;
+}
+
+static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
+                                    PacketStream* stream, int root, uint packets, uint octant,
+                                    bool mixed) {
+    PacketStreamStack stack;
+    uint depth = 0u, index = (uint)root;
+    while (packets != 0u) {
+        depth = visit_node(scene, stream, index, packets, octant, mixed, &stack, depth);
+        packets = next_node(scene, instance, stream, octant, mixed, &stack, &depth, &index);
     }
 }
 
