@@ -36,8 +36,8 @@ TEST(Registry, NamesAreFoundAndUnknownOnesListTheRest) {
 }
 
 TEST(Registry, DefaultsOfACpuFollowTheRaysCoherence) {
-    EXPECT_EQ(chosen(kCpu, RayClass::primary), "packet_stream");
-    EXPECT_EQ(chosen(kCpu, RayClass::shadow), "packet16");
+    for (const RayClass coherent : {RayClass::primary, RayClass::shadow, RayClass::sparse})
+        EXPECT_EQ(chosen(kCpu, coherent), "packet_stream");
     for (const RayClass incoherent :
          {RayClass::ambient_occlusion, RayClass::diffuse, RayClass::random})
         EXPECT_EQ(chosen(kCpu, incoherent), "stream");
