@@ -61,7 +61,7 @@ struct GeometryStatistics {
     std::vector<std::string> notes; // why a cache file was not used
 };
 
-// Buffers of one layout, for the arguments of kernels/traverse/contract.h.
+// Buffers of one layout, for the arguments of kernels/lib/trace_contract.h.
 struct LayoutBuffers {
     compute::Buffer nodes;
     compute::Buffer triangles;

@@ -1,5 +1,5 @@
 // The trace stage: every ray of a frame goes through here. It launches the variant chosen for the
-// ray class by the contract of kernels/traverse/contract.h; nothing returns to the host.
+// ray class by the contract of kernels/lib/trace_contract.h; nothing returns to the host.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@
 
 #include "lib/instance.h"
 #include "lib/mask.h"
+#include "lib/trace_contract.h"
 #include "lib/triangle.h"
-#include "traverse/contract.h"
 
 /* The buffers of the contract that describe the scene. */
 typedef struct TraceScene {

@@ -2,8 +2,8 @@
 #ifndef MACULA_LIB_TRAVERSE_QUEUE_H
 #define MACULA_LIB_TRAVERSE_QUEUE_H
 
+#include "lib/trace_contract.h"
 #include "lib/triangle.h"
-#include "traverse/contract.h"
 
 /* A ray as it lies in the queue: the instances' transforms start from these values. */
 typedef struct QueuedRay {

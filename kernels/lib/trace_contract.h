@@ -1,15 +1,16 @@
 /* The one contract of every traversal variant (docs/variants.md).
  *
- * A variant is one file <name>.cl beside this one that defines `kernel void trace(TRACE_ARGUMENTS)`
- * and one entry of the manifest in host/kernel/variants.cpp. The program is built once for each
- * query kind: MACULA_ANY_HIT is 0 (closest hit: results are HitBlocks) or 1 (any hit: results are
- * one uint a ray, 1 = occluded). MACULA_INSTANCES is 0 when the scene is one identity instance (the
- * upper level is skipped) and MACULA_MASKS is 0 when no triangle has an alpha mask.
+ * A variant is one file kernels/traverse/<name>.cl that defines
+ * `kernel void trace(TRACE_ARGUMENTS)` and one entry of the manifest in host/kernel/variants.cpp.
+ * The program is built once for each query kind: MACULA_ANY_HIT is 0 (closest hit: results are
+ * HitBlocks) or 1 (any hit: results are one uint a ray, 1 = occluded). MACULA_INSTANCES is 0 when
+ * the scene is one identity instance (the upper level is skipped) and MACULA_MASKS is 0 when no
+ * triangle has an alpha mask.
  *
  * `ray_count` lives on the device. A launch covers the queue's capacity; work beyond the count
  * returns at once. Results of the rays up to the count are written, every one of them. */
-#ifndef MACULA_TRAVERSE_CONTRACT_H
-#define MACULA_TRAVERSE_CONTRACT_H
+#ifndef MACULA_LIB_TRACE_CONTRACT_H
+#define MACULA_LIB_TRACE_CONTRACT_H
 
 #include "shared/bvh.h"
 #include "shared/mask.h"
