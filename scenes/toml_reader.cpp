@@ -5,6 +5,8 @@
 
 #include <toml++/toml.h>
 
+#include "scenes/json_table.hpp"
+
 namespace macula::scene {
 namespace {
 
@@ -39,6 +41,13 @@ TomlDocument::TomlDocument(const std::string& text, const std::string& name) {
     }
 }
 
+TomlDocument TomlDocument::from_json(const std::string& text, const std::string& name) {
+    auto document = std::make_shared<const toml::table>(json_table(text, name));
+    const toml::table* table = document.get();
+    return TomlDocument(
+        std::make_shared<const TomlTable::Node>(TomlTable::Node{std::move(document), table, name}));
+}
+
 TomlTable TomlDocument::root() const {
     return TomlTable(root_);
 }
@@ -50,7 +59,10 @@ void TomlTable::fail(std::string_view key, const std::string& what) const {
     const toml::node* value = node_->table->get(key);
     const toml::source_region& source = value != nullptr ? value->source() : node_->table->source();
     std::ostringstream message;
-    message << node_->file << ":" << source.begin.line << ": key '" << key << "': " << what;
+    message << node_->file;
+    if (source.begin.line != 0) // what was JSON has none
+        message << ":" << source.begin.line;
+    message << ": key '" << key << "': " << what;
     throw SceneError(message.str());
 }
 
@@ -100,6 +112,24 @@ std::optional<float> TomlTable::number(std::string_view key, double lo, double h
     if (!(number >= lo && number <= hi))
         fail(key, spelled(number) + " is not between " + spelled(lo) + " and " + spelled(hi));
     return static_cast<float>(number);
+}
+
+std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std::size_t most,
+                                                      double lo, double hi) const {
+    if (!has(key))
+        return std::nullopt;
+    const auto* array = node_->table->get_as<toml::array>(key);
+    if (array == nullptr || array->size() > most)
+        fail(key, "at most " + std::to_string(most) + " numbers [a, b, ...] were expected");
+    std::vector<double> result;
+    for (const toml::node& element : *array) {
+        const double number =
+            element.is_number() ? element.value<double>().value_or(std::nan("")) : std::nan("");
+        if (!(number >= lo && number <= hi))
+            fail(key, "numbers between " + spelled(lo) + " and " + spelled(hi) + " were expected");
+        result.push_back(number);
+    }
+    return result;
 }
 
 std::optional<glm::vec3> TomlTable::vec3(std::string_view key) const {

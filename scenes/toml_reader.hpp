@@ -34,6 +34,9 @@ class TomlTable {
                                         std::int64_t hi) const;
     std::optional<float> number(std::string_view key, double lo, double hi) const;
     std::optional<bool> boolean(std::string_view key) const;
+    // [a, b, ...], at most `most` of them.
+    std::optional<std::vector<double>> numbers(std::string_view key, std::size_t most, double lo,
+                                               double hi) const;
     // [x, y, z], each below 1e18 in size.
     std::optional<glm::vec3> vec3(std::string_view key) const;
     // [r, g, b] or one grey value, each in 0 .. hi; linear RGB.
@@ -77,9 +80,13 @@ class TomlDocument {
   public:
     // Throws SceneError with line and column when `text` is no TOML. `name` begins every message.
     TomlDocument(const std::string& text, const std::string& name);
+    // The same for a JSON object; null values count as absent. Messages about keys then come
+    // without a line.
+    static TomlDocument from_json(const std::string& text, const std::string& name);
     TomlTable root() const;
 
   private:
+    explicit TomlDocument(std::shared_ptr<const TomlTable::Node> root) : root_(std::move(root)) {}
     std::shared_ptr<const TomlTable::Node> root_;
 };
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -64,6 +65,15 @@ nlohmann::ordered_json to_json(const render::FrameReport& report, const render::
             {"stages", stages},      {"hash", renderer.hash()},   {"files", names}};
 }
 
+nlohmann::ordered_json gaze_json(const scene::GazeSample& sample, scene::Eye eye) {
+    const glm::dvec2 angles = scene::angles_of_direction(sample.of(eye));
+    return {{"degrees", {angles.x, angles.y}},
+            {"time_ns", sample.time_ns},
+            {"valid", sample.valid},
+            {"confidence", sample.confidence},
+            {"widening", sample.widening}};
+}
+
 // One line that is written over; nothing when standard error is no terminal.
 class Progress {
   public:
@@ -91,38 +101,108 @@ class Progress {
     bool shown_;
 };
 
+/// One eye's view: a renderer with its own history, and its files.
+struct EyeRun {
+    scene::Eye eye;
+    render::Renderer renderer;
+    app::FrameFiles files;
+    app::EyeFrame view; // of the last frame
+};
+
+/// "A" or "A,B": the devices of the eyes; the second eye's is the first's where only one is named.
+std::vector<compute::Device> open_devices(const std::string& selectors, std::size_t eyes) {
+    const std::size_t comma = eyes == 2 ? selectors.find(',') : std::string::npos;
+    std::vector<compute::Device> devices{compute::open(selectors.substr(0, comma))};
+    if (comma != std::string::npos)
+        devices.push_back(compute::open(selectors.substr(comma + 1)));
+    return devices;
+}
+
+EyeRun make_eye(const app::RenderOptions& options, const compute::Device& device,
+                const scene::Scene& scene, const app::Views& views, scene::Eye eye, bool alone) {
+    render::Options engine = app::engine_options(options);
+    engine.width = views.display().width;
+    engine.height = views.display().height;
+    if (!options.display.empty())
+        engine.tangents = app::tangents_of(views.display().eye(eye));
+    output::Metadata metadata = metadata_of(options, device);
+    if (!options.display.empty()) {
+        metadata.emplace_back("display", views.display().name);
+        metadata.emplace_back("eye", scene::name(eye));
+    }
+    return {eye,
+            render::Renderer(device, scene, engine),
+            app::FrameFiles(alone ? options.out : options.out / scene::name(eye), options.formats,
+                            options.aovs, options.exposure, std::move(metadata)),
+            {}};
+}
+
+/// Renders the frame of every eye: at the same time where each has its own device, else one after
+/// the other, so that their times are their own.
+std::vector<render::FrameReport> render_eyes(std::vector<EyeRun>& eyes, app::Views& views,
+                                             std::uint32_t frame, bool together) {
+    std::vector<render::FrameReport> reports;
+    for (EyeRun& run : eyes) {
+        run.view = views.at(frame, run.eye);
+        run.renderer.start(frame, run.view.camera, run.view.gaze);
+        if (!together)
+            reports.push_back(run.renderer.finish());
+    }
+    for (EyeRun& run : eyes) {
+        if (together)
+            reports.push_back(run.renderer.finish());
+    }
+    return reports;
+}
+
+/// Writes and prints what a frame of one eye gave.
+void deliver(const app::RenderOptions& options, const EyeRun& run,
+             const render::FrameReport& report, bool json) {
+    const auto written = run.files.write(run.renderer, report.frame);
+    if (options.hash)
+        fmt::print("hash {}\n", run.renderer.hash());
+    if (json) {
+        nlohmann::ordered_json line = to_json(report, run.renderer, written);
+        line["eye"] = scene::name(run.eye);
+        if (!options.gaze.empty())
+            line["gaze"] = gaze_json(run.view.sample, run.eye);
+        fmt::print("{}\n", line.dump());
+    }
+    std::fflush(stdout);
+}
+
 int render_frames(const app::RenderOptions& options) {
-    const compute::Device device = compute::open(options.device);
-    const render::Options engine = app::engine_options(options);
+    const std::vector<scene::Eye> which = app::eyes_of(options);
+    const std::vector<compute::Device> devices = open_devices(options.device, which.size());
     const app::FrameRange range = app::parse_frames(options.frames);
-    const app::FrameFiles files(options.out, options.formats, options.aovs, options.exposure,
-                                metadata_of(options, device));
     const scene::Scene scene = app::load_scene(options);
     for (const std::string& warning : scene.warnings)
         fmt::print(stderr, "macula: warning: {}\n", warning);
-    render::Renderer renderer(device, scene, engine);
-    for (const std::string& note : renderer.geometry().notes)
+    app::Views views(options, scene);
+    std::vector<EyeRun> eyes;
+    for (std::size_t i = 0; i < which.size(); ++i)
+        eyes.push_back(make_eye(options, devices[std::min(i, devices.size() - 1)], scene, views,
+                                which[i], which.size() == 1));
+    for (const std::string& note : eyes.front().renderer.geometry().notes)
         fmt::print(stderr, "macula: {}\n", note);
     const bool json = options.json || (isatty(STDOUT_FILENO) == 0 && !options.hash);
     std::signal(SIGINT, on_interrupt);
     const Progress progress(range);
     bool skipped = false;
     for (std::uint32_t frame = range.first; frame < range.end && interrupted == 0; ++frame) {
-        if (options.resume && files.exist(frame)) {
+        if (options.resume && std::all_of(eyes.begin(), eyes.end(), [&](const EyeRun& run) {
+                return run.files.exist(frame);
+            })) {
             skipped = true;
             continue;
         }
         if (skipped) // motion vectors need the view before
-            renderer.render(frame - 1);
+            render_eyes(eyes, views, frame - 1, devices.size() > 1);
         skipped = false;
-        const render::FrameReport report = renderer.render(frame);
-        const auto written = files.write(renderer, frame);
-        if (options.hash)
-            fmt::print("hash {}\n", renderer.hash());
-        if (json)
-            fmt::print("{}\n", to_json(report, renderer, written).dump());
-        std::fflush(stdout);
-        progress.show(report);
+        const auto reports = render_eyes(eyes, views, frame, devices.size() > 1);
+        for (std::size_t i = 0; i < eyes.size(); ++i)
+            deliver(options, eyes[i], reports[i], json);
+        progress.show(reports.front());
     }
     return interrupted != 0 ? kInterrupted : 0;
 }

@@ -7,11 +7,11 @@
 
 #include <cstdio>
 #include <stdexcept>
+#include <tuple>
 
 #include "host/app/aov.hpp"
 #include "host/app/command.hpp"
 #include "host/kernel/program_cache.hpp"
-#include "scenes/display.hpp"
 #include "scenes/load.hpp"
 
 namespace macula::app {
@@ -55,25 +55,6 @@ void choose_path(scene::Scene& scene, const RenderOptions& options) {
         if (scene.path.keys.empty())
             refuse("--path", options.path, "this scene file has no camera path");
     }
-}
-
-void set_size(render::Options& engine, const RenderOptions& options) {
-    if (!options.display.empty()) {
-        const scene::Display display = scene::find_display(options.display);
-        engine.width = display.width;
-        engine.height = display.height;
-        engine.tangents =
-            frame::Tangents{display.tan_left, display.tan_right, display.tan_up, display.tan_down};
-    }
-    if (options.size.empty())
-        return;
-    unsigned width = 0, height = 0;
-    int end = 0;
-    if (std::sscanf(options.size.c_str(), "%ux%u%n", &width, &height, &end) != 2 ||
-        options.size[static_cast<std::size_t>(end)] != '\0')
-        refuse("--size", options.size, "WIDTHxHEIGHT in pixels was expected");
-    engine.width = width;
-    engine.height = height;
 }
 
 } // namespace
@@ -125,10 +106,10 @@ render::Options engine_options(const RenderOptions& options) {
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
     engine.variant = options.variant;
+    std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
     engine.geometry.cache_directory = bvh_cache_folder();
-    set_size(engine, options);
     return engine;
 }
 
@@ -138,8 +119,7 @@ void RenderOptions::add_to(CLI::App& command) {
     add_device_option(command, device);
     command.add_option("--method", method, "How frames are made")->capture_default_str();
     command.add_option("--spp", samples_per_pixel, "Samples per pixel")->capture_default_str();
-    command.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 640x480)");
-    command.add_option("--display", display, "Size and field of view of a display, e.g. dk2");
+    ViewOptions::add_to(command);
     command.add_option("--camera", camera, "EYE:TARGET[:FOV] as x,y,z:x,y,z:degrees, or a name");
     command.add_option("--path", path, "scene, still, or a scene file whose camera path to fly")
         ->capture_default_str();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/app/view_options.hpp"
 #include "host/render/renderer.hpp"
 #include "scenes/scene.hpp"
 
@@ -15,9 +16,9 @@ class App;
 
 namespace macula::app {
 
-struct RenderOptions {
-    std::string scene, device, method = "full", size, display, camera, path = "scene", frames,
-                               lights = "point", variant;
+struct RenderOptions : ViewOptions {
+    std::string scene, device, method = "full", camera, path = "scene", frames, lights = "point",
+                               variant;
     std::uint32_t samples_per_pixel = 1, light_samples = 8, ambient_occlusion_samples = 16,
                   seed = 0;
     std::uint32_t scene_size = 0;

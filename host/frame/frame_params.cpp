@@ -41,6 +41,26 @@ void check_range(const char* what, std::uint32_t value, std::uint32_t least, std
             fmt::format("{} must be {} to {}, not {}", what, least, most, value));
 }
 
+// Expects the camera to be set.
+void store_gaze(const Gaze& gaze, shared::FrameParams& p) {
+    constexpr float kMaxWidening = 100.0f;
+    if (!(gaze.widening >= 1.0f && gaze.widening <= kMaxWidening))
+        throw std::invalid_argument(fmt::format(
+            "the foveal region can be widened by 1 to {}, not {}", kMaxWidening, gaze.widening));
+    p.gaze_widening = gaze.widening;
+    const float3 forward = {p.camera.forward[0], p.camera.forward[1], p.camera.forward[2]};
+    if (!gaze.direction) {
+        store(forward, p.gaze);
+        return;
+    }
+    const float3 zero = {0.0f, 0.0f, 0.0f};
+    const float3 direction =
+        is_finite(*gaze.direction) ? unit3(to_float3(*gaze.direction), zero) : zero;
+    if (dot3(direction, direction) == 0.0f)
+        throw std::invalid_argument("the gaze has no direction");
+    store(direction, p.gaze);
+}
+
 } // namespace
 
 Tangents tangents_of(float vertical_fov_degrees, std::uint32_t width, std::uint32_t height) {
@@ -107,7 +127,7 @@ void check(const FrameSettings& s) {
 
 shared::FrameParams make_params(const FrameSettings& settings, std::uint32_t frame,
                                 const shared::Camera& camera,
-                                const std::optional<shared::Camera>& previous) {
+                                const std::optional<shared::Camera>& previous, const Gaze& gaze) {
     check(settings);
     shared::FrameParams p{};
     p.camera = camera;
@@ -127,8 +147,8 @@ shared::FrameParams make_params(const FrameSettings& settings, std::uint32_t fra
     // Each of the pixel's samples stands for its share of the pixel's area.
     p.pixel_spread = (camera.tan_left + camera.tan_right) / static_cast<float>(settings.width) /
                      std::sqrt(static_cast<float>(settings.samples_per_pixel));
+    store_gaze(gaze, p);
     for (int i = 0; i < 3; ++i) {
-        p.gaze[i] = camera.forward[i];
         p.ambient[i] = settings.ambient[i];
         p.background[i] = settings.background[i];
     }

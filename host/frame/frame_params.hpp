@@ -40,10 +40,19 @@ struct FrameSettings {
 // Throws std::invalid_argument that names the setting out of range.
 void check(const FrameSettings& settings);
 
-// `previous`: last frame's camera; without one the view stands still. The gaze is the camera's
-// forward axis.
+// Where the eye looks in one frame.
+struct Gaze {
+    // World space, of any length above 0; the camera's forward axis without one.
+    std::optional<glm::vec3> direction;
+    // Factor on the foveal region's radii, at least 1: more where the gaze is not known for sure.
+    float widening = 1.0f;
+};
+
+// `previous`: last frame's camera; without one the view stands still. Throws std::invalid_argument
+// for a gaze without direction or a widening out of 1..100.
 shared::FrameParams make_params(const FrameSettings& settings, std::uint32_t frame,
                                 const shared::Camera& camera,
-                                const std::optional<shared::Camera>& previous);
+                                const std::optional<shared::Camera>& previous,
+                                const Gaze& gaze = {});
 
 } // namespace macula::frame

@@ -116,6 +116,8 @@ struct Renderer::State {
     frame::Graph graph;
     frame::Timings timings;
     std::optional<shared::Camera> last_camera;
+    std::uint32_t frame = 0; // of start()
+    std::chrono::steady_clock::time_point start;
     std::array<std::uint64_t, kernel::kRayClasses.size()> last_rays{};
     std::vector<scene::Transform> transforms;
     // Frames for which the transforms must still be set: the one in which something moved, and the
@@ -133,12 +135,19 @@ FrameReport Renderer::render(std::uint32_t frame) {
     return render(frame, frame::camera_on_path(state_->views, frame));
 }
 
-FrameReport Renderer::render(std::uint32_t frame, const scene::Camera& view) {
+FrameReport Renderer::render(std::uint32_t frame, const scene::Camera& view,
+                             const frame::Gaze& gaze) {
+    start(frame, view, gaze);
+    return finish();
+}
+
+void Renderer::start(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze) {
     State& s = *state_;
     const frame::Tangents tangents = s.options.tangents.value_or(
         frame::tangents_of(view.vertical_fov_degrees, s.options.width, s.options.height));
     const shared::Camera camera = frame::make_camera(view, tangents);
-    const shared::FrameParams params = frame::make_params(s.settings, frame, camera, s.last_camera);
+    const shared::FrameParams params =
+        frame::make_params(s.settings, frame, camera, s.last_camera, gaze);
     if (s.frames_to_place > 0) {
         s.geometry.set_transforms(s.transforms);
         --s.frames_to_place;
@@ -147,13 +156,20 @@ FrameReport Renderer::render(std::uint32_t frame, const scene::Camera& view) {
 
     s.device.finish();
     s.device.timeline().take();
-    const auto start = std::chrono::steady_clock::now();
+    s.frame = frame;
+    s.start = std::chrono::steady_clock::now();
     s.graph.execute(params);
+    s.device.flush();
+}
+
+FrameReport Renderer::finish() {
+    State& s = *state_;
     s.device.finish();
-    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double, std::milli> wall =
+        std::chrono::steady_clock::now() - s.start;
 
     FrameReport report;
-    report.frame = frame;
+    report.frame = s.frame;
     report.wall_ms = wall.count();
     report.stages = frame::sum_by_stage(s.device.timeline().take());
     s.timings.add(report.stages, report.wall_ms);

@@ -84,7 +84,12 @@ class Renderer {
     // Renders frame `frame` from the scene's camera path (or first camera), or from `view`, and
     // waits for it. The view before it is that of the call before.
     FrameReport render(std::uint32_t frame);
-    FrameReport render(std::uint32_t frame, const scene::Camera& view);
+    FrameReport render(std::uint32_t frame, const scene::Camera& view,
+                       const frame::Gaze& gaze = {});
+    // The two halves of render(): start() enqueues the frame and returns, finish() waits for it.
+    // Renderers on different devices work at the same time between them.
+    void start(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze = {});
+    FrameReport finish();
 
     // An image of the last frame: "colour" or one of Options::images. Throws std::invalid_argument
     // for another name.

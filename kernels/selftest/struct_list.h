@@ -75,6 +75,7 @@
     MEMBER(FrameParams, pixel_spread)                                                              \
     MEMBER(FrameParams, width)                                                                     \
     MEMBER(FrameParams, seed)                                                                      \
+    MEMBER(FrameParams, gaze_widening)                                                             \
     MEMBER(FrameParams, ambient)
 
 #endif

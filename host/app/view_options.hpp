@@ -1,0 +1,68 @@
+/// Display, eyes, gaze and head of a rendering: what the user asked for, and frame by frame what
+/// each eye sees and where it looks. docs/displays.md and docs/gaze.md give the syntax.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/frame/frame_params.hpp"
+#include "scenes/gaze/source.hpp"
+#include "scenes/scene.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace macula::app {
+
+struct ViewOptions {
+    std::string display; // empty: the camera's field of view
+    std::string size;    // WxH; empty: the display's, or 640x480
+    std::string eyes = "mono", gaze, head;
+
+    void add_to(CLI::App& command);
+};
+
+/// --size, or what is given without it: pixels. Throws std::invalid_argument.
+std::pair<std::uint32_t, std::uint32_t> size_of(const ViewOptions& options, std::uint32_t width,
+                                                std::uint32_t height);
+
+/// The display with the size that is asked for; without a display one eye that sees what `camera`
+/// does. Throws std::invalid_argument and scene::SceneError.
+scene::Display display_of(const ViewOptions& options, const scene::Camera& camera);
+
+/// "mono", "left", "right" or "both". Throws std::invalid_argument.
+std::vector<scene::Eye> eyes_of(const ViewOptions& options);
+
+/// The field of view as the renderer takes it.
+frame::Tangents tangents_of(const scene::EyeView& eye);
+
+/// One eye in one frame.
+struct EyeFrame {
+    scene::Camera camera;
+    frame::Gaze gaze;
+    scene::GazeSample sample;
+};
+
+class Views {
+  public:
+    /// The scene must outlive it.
+    Views(const ViewOptions& options, const scene::Scene& scene);
+
+    const scene::Display& display() const { return display_; }
+    /// Of one eye; frames of one index share one gaze sample.
+    EyeFrame at(std::uint32_t frame, scene::Eye eye);
+
+  private:
+    scene::Camera head_at(std::uint32_t frame) const;
+    std::int64_t time_ns(std::uint32_t frame) const;
+
+    const scene::Scene& scene_;
+    scene::Display display_;
+    scene::GazePointer gaze_; // none: along the camera's axis
+};
+
+} // namespace macula::app
