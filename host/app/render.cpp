@@ -15,7 +15,7 @@
 #include "host/app/command.hpp"
 #include "host/app/frame_files.hpp"
 #include "host/app/render_options.hpp"
-#include "host/kernel/variants.hpp"
+#include "host/app/variants.hpp"
 
 namespace {
 
@@ -178,6 +178,10 @@ int render_frames(const app::RenderOptions& options) {
     const scene::Scene scene = app::load_scene(options);
     for (const std::string& warning : scene.warnings)
         fmt::print(stderr, "macula: warning: {}\n", warning);
+    if (options.variant.empty()) {
+        for (const compute::Device& device : devices)
+            app::print_tuning_warnings(device);
+    }
     app::Views views(options, scene);
     std::vector<EyeRun> eyes;
     for (std::size_t i = 0; i < which.size(); ++i)
@@ -209,8 +213,7 @@ int render_frames(const app::RenderOptions& options) {
 
 int run(const app::RenderOptions& options) {
     if (options.list_variants) {
-        const compute::Device device = compute::open(options.device);
-        fmt::print("{}", kernel::list_variants(kernel::traits_of(device)));
+        app::print_variants(compute::open(options.device));
         return 0;
     }
     if (options.list_aovs) {

@@ -34,6 +34,14 @@ std::string padded(std::string text, std::size_t width) {
     return text;
 }
 
+// " (chunk 16, work_group 1)", empty for standard values.
+std::string described(const ParameterValues& values) {
+    std::string text;
+    for (const auto& [key, value] : values)
+        text += (text.empty() ? " (" : ", ") + key + " " + std::to_string(value);
+    return text.empty() ? text : text + ")";
+}
+
 } // namespace
 
 const char* name(RayClass ray_class) {
@@ -115,22 +123,24 @@ void check_parameters(const Variant& variant, const ParameterValues& values) {
     }
 }
 
-std::string list_variants(const DeviceTraits& device) {
+std::string list_variants(const DeviceTraits& device, std::span<const Choice> chosen) {
+    if (chosen.size() != kRayClasses.size())
+        throw std::invalid_argument("listing the variants: a choice for each class is needed");
     std::string text;
     for (const Variant& variant : variants()) {
-        std::string chosen, reasons;
+        text += padded(variant.name, 25) + padded(bvh::name(variant.layout), 14) + variant.paper +
+                (&variant == &reference_variant() ? "; the reference" : "") + "\n";
+        std::string reasons;
         for (const RayClass ray_class : kRayClasses) {
+            const Choice& choice = chosen[static_cast<std::size_t>(ray_class)];
             const std::string reason = why_not(variant, device, ray_class);
+            if (choice.variant == &variant)
+                text += std::string("    chosen for ") + name(ray_class) + " rays" +
+                        described(choice.parameters) + "\n";
             if (!reason.empty())
                 reasons +=
                     std::string("    not for ") + name(ray_class) + " rays: " + reason + "\n";
-            else if (&default_variant(device, ray_class) == &variant)
-                chosen += std::string(chosen.empty() ? "chosen for " : ", ") + name(ray_class);
         }
-        text += padded(variant.name, 25) + padded(bvh::name(variant.layout), 14) + variant.paper +
-                (&variant == &reference_variant() ? "; the reference" : "") + "\n";
-        if (!chosen.empty())
-            text += "    " + chosen + "\n";
         text += reasons;
     }
     return text;

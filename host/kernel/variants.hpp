@@ -121,8 +121,9 @@ struct Choice {
     ParameterValues parameters;
 };
 
-// The table of `--list-variants`: one line a variant with layout, paper and the ray classes it is
-// chosen for, and why it does not apply where it does not.
-std::string list_variants(const DeviceTraits& device);
+// The table of `macula variants`: for each variant its layout and paper, the ray classes it is
+// `chosen` for (one choice for each class, in the order of kRayClasses) with its tuned parameters,
+// and why it does not apply to a class where it does not.
+std::string list_variants(const DeviceTraits& device, std::span<const Choice> chosen);
 
 } // namespace macula::kernel

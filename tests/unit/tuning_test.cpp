@@ -91,12 +91,22 @@ TEST(Registry, WrongParametersSayWhy) {
         ThrowsMessage<std::invalid_argument>(HasSubstr("power of two")));
 }
 
-TEST(Registry, ListNamesEveryVariantAndTheReasonsAgainst) {
-    const std::string list = kernel::list_variants(kGpu);
+TEST(Registry, ListNamesEveryVariantTheChoicesAndTheReasonsAgainst) {
+    std::vector<kernel::Choice> chosen;
+    for (const RayClass ray_class : kernel::kRayClasses)
+        chosen.push_back({&kernel::default_variant(kGpu, ray_class), {}});
+    chosen[static_cast<std::size_t>(RayClass::random)] = {&kernel::find_variant("persistent"),
+                                                          {{"work_group", 8}}};
+    const std::string list = kernel::list_variants(kGpu, chosen);
     for (const kernel::Variant& variant : kernel::variants())
         EXPECT_THAT(list, HasSubstr(variant.name));
-    EXPECT_THAT(list, HasSubstr("chosen for primary"));
+    EXPECT_THAT(list, HasSubstr("chosen for primary rays\n"));
+    EXPECT_THAT(list, HasSubstr("chosen for random rays (work_group 8)\n"));
     EXPECT_THAT(list, HasSubstr("private memory"));
+}
+
+TEST(Registry, ListNeedsAChoiceForEachClass) {
+    EXPECT_THROW(kernel::list_variants(kGpu, {}), std::invalid_argument);
 }
 
 class TuningFile : public testing::Test {
