@@ -130,6 +130,8 @@ EyeRun make_eye(const app::RenderOptions& options, const compute::Device& device
         metadata.emplace_back("display", views.display().name);
         metadata.emplace_back("eye", scene::name(eye));
     }
+    if (!options.gaze.empty())
+        metadata.emplace_back("gaze", views.gaze_source());
     return {eye,
             render::Renderer(device, scene, engine),
             app::FrameFiles(alone ? options.out : options.out / scene::name(eye), options.formats,

@@ -45,15 +45,18 @@ scene::Camera parse_camera(const std::string& text, const scene::Scene& scene) {
            "neither EYE:TARGET[:FOV] as x,y,z:x,y,z:degrees nor one of the scene's cameras");
 }
 
+// --head names a path too, unless it is a recording.
 void choose_path(scene::Scene& scene, const RenderOptions& options) {
-    if (options.path == "still") {
+    const bool by_head = !options.head.empty() && !head_is_recorded(options);
+    const std::string& path = by_head ? options.head : options.path;
+    if (path == "still") {
         scene.path = {};
-    } else if (options.path != "scene") {
+    } else if (path != "scene") {
         scene::LoadOptions geometry_only;
         geometry_only.textures = false;
-        scene.path = scene::load(options.path, geometry_only).path;
+        scene.path = scene::load(path, geometry_only).path;
         if (scene.path.keys.empty())
-            refuse("--path", options.path, "this scene file has no camera path");
+            refuse(by_head ? "--head" : "--path", path, "this scene file has no camera path");
     }
 }
 

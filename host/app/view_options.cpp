@@ -5,11 +5,14 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <tuple>
 
+#include "host/app/scene_depth.hpp"
+#include "scenes/gaze/spec.hpp"
 #include "scenes/head/pose.hpp"
 
 namespace macula::app {
@@ -22,17 +25,6 @@ using scene::Eye;
     throw std::invalid_argument(fmt::format("{} \"{}\": {}", option, value, expected));
 }
 
-// "X,Y": degrees to the right and up.
-scene::GazePointer parse_gaze(const std::string& text) {
-    double right = 0.0, up = 0.0;
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf%n", &right, &up, &end) == 2 &&
-        text[static_cast<std::size_t>(end)] == '\0' && std::fabs(right) <= 180.0 &&
-        std::fabs(up) <= 90.0)
-        return scene::fixed_gaze(scene::direction_of_angles(right, up));
-    refuse("--gaze", text, "X,Y in degrees to the right and up was expected");
-}
-
 } // namespace
 
 void ViewOptions::add_to(CLI::App& command) {
@@ -43,8 +35,14 @@ void ViewOptions::add_to(CLI::App& command) {
     command
         .add_option("--eyes", eyes, "mono, left, right or both (two views, into left/ and right/)")
         ->capture_default_str();
-    command.add_option("--gaze", gaze,
-                       "X,Y in degrees to the right and up (default: straight ahead)");
+    command.add_option(
+        "--gaze", gaze,
+        "Where the eyes look: X,Y in degrees to the right and up, pixel:X,Y, target, "
+        "synthetic, FILE.csv or udp:PORT, see docs/gaze.md (default: straight ahead)");
+    command.add_option("--tracker", tracker,
+                       "What an eye tracker makes of it, e.g. latency=30,noise=0.5,smooth=40");
+    command.add_option("--head", head,
+                       "What carries the head: as --path, or a recording FILE.csv on top of it");
 }
 
 std::pair<std::uint32_t, std::uint32_t> size_of(const ViewOptions& options, std::uint32_t width,
@@ -91,28 +89,66 @@ frame::Tangents tangents_of(const scene::EyeView& eye) {
             static_cast<float>(eye.tan_up), static_cast<float>(eye.tan_down)};
 }
 
+bool head_is_recorded(const ViewOptions& options) {
+    return options.head.ends_with(".csv");
+}
+
 Views::Views(const ViewOptions& options, const scene::Scene& scene)
     : scene_(scene), display_(display_of(options, scene.cameras.front())) {
     if (options.display.empty() && options.eyes != "mono")
         refuse("--eyes", options.eyes, "only a display (--display) has more than one");
-    if (!options.gaze.empty())
-        gaze_ = parse_gaze(options.gaze);
+    if (head_is_recorded(options))
+        head_.emplace(scene::read_head_csv(options.head));
+    const scene::TrackerOptions tracker = scene::parse_tracker(options.tracker);
+    if (options.gaze.empty() && !options.tracker.empty())
+        refuse("--tracker", options.tracker, "it needs a gaze (--gaze) to track");
+    if (options.gaze.empty())
+        return;
+    const scene::GazeContext context{
+        display_, eyes_of(options).front(),
+        [this](std::int64_t time_ns, const glm::dvec3& d) { return depth(time_ns, d); }};
+    gaze_ = scene::tracked(scene::parse_gaze(options.gaze, context), tracker);
+}
+
+Views::~Views() = default;
+
+std::string Views::gaze_source() const {
+    return gaze_ ? gaze_->describe() : "";
 }
 
 std::int64_t Views::time_ns(std::uint32_t frame) const {
     return std::llround(frame * (1e9 / display_.refresh_hz));
 }
 
-scene::Camera Views::head_at(std::uint32_t frame) const {
-    return frame::camera_on_path(scene_, frame);
+scene::Camera Views::head_at(std::int64_t time_ns) const {
+    const scene::Camera body = frame::camera_at(
+        scene_, static_cast<float>(1e-9 * static_cast<double>(time_ns) * display_.refresh_hz));
+    return head_ ? head_->on(body, time_ns, 1.0 / scene_.metres_per_unit) : body;
+}
+
+double Views::depth(std::int64_t time_ns, const glm::dvec3& direction) {
+    if (!depth_)
+        depth_ = std::make_unique<SceneDepth>(scene_);
+    const scene::Camera head = head_at(time_ns);
+    const glm::dvec3 world = scene::world_from_head(head) * direction;
+    return depth_->along(head.eye, glm::vec3(world)) * scene_.metres_per_unit;
+}
+
+const scene::GazeSample& Views::sample_at(std::uint32_t frame) {
+    if (sampled_frame_ != frame)
+        sample_ = gaze_->at(time_ns(frame));
+    sampled_frame_ = frame;
+    return sample_;
 }
 
 EyeFrame Views::at(std::uint32_t frame, Eye eye) {
-    const scene::Camera head = head_at(frame);
+    scene::Camera head = frame::camera_on_path(scene_, frame);
+    if (head_)
+        head = head_->on(head, time_ns(frame), 1.0 / scene_.metres_per_unit);
     EyeFrame result;
     result.camera = scene::eye_camera(head, display_.eye(eye), 1.0 / scene_.metres_per_unit);
     if (gaze_) {
-        result.sample = gaze_->at(time_ns(frame));
+        result.sample = sample_at(frame);
         result.gaze.direction = glm::vec3(scene::world_from_head(head) * result.sample.of(eye));
         result.gaze.widening = static_cast<float>(result.sample.widening);
     }

@@ -10,6 +10,7 @@
 
 #include "host/frame/frame_params.hpp"
 #include "scenes/gaze/source.hpp"
+#include "scenes/head/recording.hpp"
 #include "scenes/scene.hpp"
 
 namespace CLI {
@@ -18,10 +19,12 @@ class App;
 
 namespace macula::app {
 
+class SceneDepth;
+
 struct ViewOptions {
     std::string display; // empty: the camera's field of view
     std::string size;    // WxH; empty: the display's, or 640x480
-    std::string eyes = "mono", gaze, head;
+    std::string eyes = "mono", gaze, tracker, head;
 
     void add_to(CLI::App& command);
 };
@@ -37,6 +40,9 @@ scene::Display display_of(const ViewOptions& options, const scene::Camera& camer
 /// "mono", "left", "right" or "both". Throws std::invalid_argument.
 std::vector<scene::Eye> eyes_of(const ViewOptions& options);
 
+/// True where --head names a recording (.csv) instead of a path.
+bool head_is_recorded(const ViewOptions& options);
+
 /// The field of view as the renderer takes it.
 frame::Tangents tangents_of(const scene::EyeView& eye);
 
@@ -49,20 +55,30 @@ struct EyeFrame {
 
 class Views {
   public:
-    /// The scene must outlive it.
+    /// The scene must outlive it. Throws std::invalid_argument that names the option, and
+    /// scene::SceneError for what files hold.
     Views(const ViewOptions& options, const scene::Scene& scene);
+    ~Views();
 
     const scene::Display& display() const { return display_; }
-    /// Of one eye; frames of one index share one gaze sample.
+    /// One eye in one frame. Both eyes of a frame see one gaze sample.
     EyeFrame at(std::uint32_t frame, scene::Eye eye);
+    /// What the gaze comes from; empty: along the camera's axis.
+    std::string gaze_source() const;
 
   private:
-    scene::Camera head_at(std::uint32_t frame) const;
+    scene::Camera head_at(std::int64_t time_ns) const;
+    double depth(std::int64_t time_ns, const glm::dvec3& direction);
     std::int64_t time_ns(std::uint32_t frame) const;
+    const scene::GazeSample& sample_at(std::uint32_t frame);
 
     const scene::Scene& scene_;
     scene::Display display_;
-    scene::GazePointer gaze_; // none: along the camera's axis
+    std::optional<scene::RecordedHead> head_;
+    scene::GazePointer gaze_;           // none: along the camera's axis
+    std::unique_ptr<SceneDepth> depth_; // once a gaze source asks
+    std::optional<std::uint32_t> sampled_frame_;
+    scene::GazeSample sample_;
 };
 
 } // namespace macula::app

@@ -105,10 +105,14 @@ shared::Camera make_camera(const scene::Camera& view, const Tangents& tangents) 
 }
 
 scene::Camera camera_on_path(const scene::Scene& scene, std::uint32_t frame) {
+    return camera_at(scene, static_cast<float>(frame));
+}
+
+scene::Camera camera_at(const scene::Scene& scene, float frame) {
     scene::Camera camera = scene.cameras.empty() ? scene::Camera{} : scene.cameras.front();
     if (scene.path.keys.empty())
         return camera;
-    const scene::CameraView view = scene::view_at(scene.path, static_cast<float>(frame));
+    const scene::CameraView view = scene::view_at(scene.path, frame);
     camera.eye = view.eye;
     camera.target = view.target;
     return camera;

@@ -25,6 +25,8 @@ shared::Camera make_camera(const scene::Camera& view, const Tangents& tangents);
 // The scene's camera in frame `frame` of its path; its first camera where it has no path. Frames
 // beyond the end stay at the end.
 scene::Camera camera_on_path(const scene::Scene& scene, std::uint32_t frame);
+// The same between frames.
+scene::Camera camera_at(const scene::Scene& scene, float frame);
 
 struct FrameSettings {
     std::uint32_t width = 640, height = 480; // pixels, each 1..16384
