@@ -37,7 +37,7 @@ double nanoseconds_per_unit(const CsvTable& table, std::size_t column) {
 std::array<double, 3> tobii_signs(const CsvTable& table, std::size_t column_z) {
     double sum = 0.0;
     for (std::size_t row = 0; row < table.rows(); ++row)
-        sum += table.number_if_any(row, column_z).value_or(0.0) > 0.0 ? 1.0 : -1.0;
+        sum += table.number_if_any(row, column_z).value_or(0.0);
     const bool z_forward = sum > 0.0;
     if (table.title(column_z).find("DACS") != std::string_view::npos)
         return {1.0, -1.0, z_forward ? -1.0 : 1.0};

@@ -1,0 +1,286 @@
+// Importers of foreign recordings: small files by hand, and the shared ones where they are.
+#include <cmath>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/gaze/import.hpp"
+
+namespace macula::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+ImportedTrace import_text(const std::string& text, const std::string& format = "") {
+    return import_trace(text, "some.txt", format);
+}
+
+constexpr const char* kVive =
+    "time(100ns);eye_valid_L;eye_valid_R;gaze_direct_L.x;gaze_direct_L.y;gaze_direct_L.z;"
+    "gaze_direct_R.x;gaze_direct_R.y;gaze_direct_R.z;helmet_pos_x;helmet_pos_y;helmet_pos_z;"
+    "helmet_rot_x;helmet_rot_y;helmet_rot_z\r\n"
+    "638342794000115346;31;31;0.1;0.2;0.97;0.1;0.2;0.97;1;2;3;0;359.9;0\r\n"
+    "638342794000115347;8;31;0;0;0;0.1;0;0.99;1;2;3;0;0.1;0\r\n"
+    "638342794000195346;8;24;0;0;0;0;0;0;1;2;3.5;0;30;0\r\n\r\n";
+
+TEST(ImportVive, TicksOf18DigitsKeepTheirLastDigit) {
+    const ImportedTrace t = import_text(kVive);
+    EXPECT_EQ(t.format, "vive_pro_eye");
+    ASSERT_EQ(t.gaze.samples.size(), 3u);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 100);
+    EXPECT_EQ(t.gaze.samples[2].time_ns, 8'000'000);
+}
+
+TEST(ImportVive, GazeXPointsToTheLeftAndZeroVectorsAreNotNormalised) {
+    const ImportedTrace t = import_text(kVive);
+    const GazeSample& both = t.gaze.samples[0];
+    EXPECT_TRUE(both.valid);
+    EXPECT_LT(both.direction.x, 0.0);
+    EXPECT_GT(both.direction.y, 0.0);
+    EXPECT_LT(both.direction.z, 0.0);
+    EXPECT_EQ(both.confidence, 1.0);
+    const GazeSample& one = t.gaze.samples[1];
+    EXPECT_TRUE(one.valid);
+    EXPECT_FALSE(one.left.has_value());
+    EXPECT_EQ(one.direction, *one.right);
+    EXPECT_EQ(one.confidence, 0.5);
+    EXPECT_FALSE(t.gaze.samples[2].valid);
+    EXPECT_EQ(t.gaze.samples[2].direction, glm::dvec3(0.0, 0.0, -1.0));
+}
+
+TEST(ImportVive, TheHeadIsMirroredAndItsWrapAroundIsNoJolt) {
+    const ImportedTrace t = import_text(kVive);
+    EXPECT_EQ(t.head.samples[0].position, glm::dvec3(1.0, 2.0, -3.0));
+    // 359.9 to 0.1 degrees: the quaternions lie close together.
+    EXPECT_GT(glm::dot(t.head.samples[0].orientation, t.head.samples[1].orientation), 0.99999);
+    // Unity's y turns to the right.
+    const glm::dvec3 forward = t.head.samples[2].orientation * glm::dvec3(0.0, 0.0, -1.0);
+    EXPECT_NEAR(angles_of_direction(forward).x, 30.0, 1e-9);
+}
+
+TEST(ImportPico, TabsBlanksInNamesAndLostEyes) {
+    const ImportedTrace t = import_text(
+        "Timeline\tCombine Eye Gaze Vector. x\tCombine Eye Gaze Vector. y\tCombine Eye Gaze "
+        "Vector. z"
+        "\tLeft Eye Pose Status\tRight Eye Pose Status\tHead Position. x\tHead Position. y"
+        "\tHead Position. z\tHead Rotation. x\tHead Rotation. y\tHead Rotation. z\n"
+        "0.5\t0.1\t0\t0.99\t52\t52\t0\t1\t2\t20\t0\t0\n"
+        "0.51\t0\t0\t0\t0\t0\t0\t1\t2\t20\t0\t0\n");
+    EXPECT_EQ(t.format, "pico_neo3");
+    EXPECT_GT(t.gaze.samples[0].direction.x, 0.0);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 10'000'000);
+    EXPECT_FALSE(t.gaze.samples[1].valid);
+    // Unity's x turns down.
+    const glm::dvec3 forward = t.head.samples[0].orientation * glm::dvec3(0.0, 0.0, -1.0);
+    EXPECT_NEAR(angles_of_direction(forward).y, -20.0, 1e-9);
+}
+
+TEST(ImportHeadQuaternions, LooksWhereTheViewVectorSays) {
+    const ImportedTrace t =
+        import_text("0,-0.0024844,-0.047941,0.011439,-0.99878,0.095709,0.0060594,"
+                    "0.99539\n0.0203,0.0089977,0.046218,-0.01061,0.99883,0.092137,"
+                    "0.018955,0.99557\n");
+    EXPECT_EQ(t.format, "head_quaternions");
+    const glm::dvec3 forward = t.head.samples[0].orientation * glm::dvec3(0.0, 0.0, -1.0);
+    EXPECT_NEAR(angle_degrees(forward, {0.095709, 0.0060594, -0.99539}), 0.0, 0.01);
+    // The second quaternion is -q of a neighbour: the same hemisphere after import.
+    EXPECT_GT(glm::dot(t.head.samples[0].orientation, t.head.samples[1].orientation), 0.99);
+}
+
+TEST(ImportPupilCore, PointsDownInTheCameraAreDownInTheHead) {
+    const ImportedTrace t = import_text(
+        "gaze_timestamp,world_index,confidence,base_data,gaze_point_3d_x,gaze_point_3d_y,"
+        "gaze_point_3d_z,gaze_normal0_x,gaze_normal0_y,gaze_normal0_z,gaze_normal1_x,"
+        "gaze_normal1_y,gaze_normal1_z\n"
+        "1234.5,0,0.9,1-1234 0-1234,100,100,1000,0,0,1,0.1,0,1\n"
+        "1234.504,0,0.1,1-1234 0-1234,100,100,1000,0,0,1,0.1,0,1\n"
+        "1234.508,0,0.8,1-1234,,,,,,,0.1,0,1\n");
+    EXPECT_EQ(t.format, "pupil_core");
+    EXPECT_GT(t.gaze.samples[0].direction.x, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.y, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.z, 0.0);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 4'000'000);
+    EXPECT_FALSE(t.gaze.samples[1].valid) << "below Pupil's confidence of useful data";
+    EXPECT_TRUE(t.gaze.samples[2].valid);
+    EXPECT_TRUE(t.head.samples.empty());
+}
+
+TEST(ImportPupilNeon, DegreesBlinksAndNotWorn) {
+    const ImportedTrace t = import_text(
+        "section id,recording id,timestamp [ns],gaze x [px],gaze y [px],worn,fixation id,"
+        "blink id,azimuth [deg],elevation [deg]\n"
+        "a,b,1700000000000000000,1,2,True,1,,10,-5\n"
+        "a,b,1700000000005000000,1,2,True,,3,10,-5\n"
+        "a,b,1700000000010000000,1,2,False,,,10,-5\n");
+    EXPECT_EQ(t.format, "pupil_neon");
+    const glm::dvec2 angles = angles_of_direction(t.gaze.samples[0].direction);
+    EXPECT_NEAR(angles.x, 10.0, 1e-9);
+    EXPECT_NEAR(angles.y, -5.0, 1e-9);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 5'000'000);
+    EXPECT_FALSE(t.gaze.samples[1].valid);
+    EXPECT_FALSE(t.gaze.samples[2].valid);
+}
+
+std::string tobii(const std::string& rows, const std::string& time = "Recording timestamp [ms]") {
+    return time +
+           "\tSensor\tGaze direction left X\tGaze direction left Y\tGaze direction left Z\t"
+           "Gaze direction right X\tGaze direction right Y\tGaze direction right Z\t"
+           "Validity left\tValidity right\n" +
+           rows;
+}
+
+TEST(ImportTobii, GlassesHaveXToTheLeftAndOtherSensorsArePassedOver) {
+    const ImportedTrace t =
+        import_text(tobii("0\tGyroscope\t\t\t\t\t\t\t\t\n"
+                          "10\tEye Tracker\t0.1\t0.2\t0.97\t0.1\t0.2\t0.97\tValid\tValid\n"
+                          "20\tEye Tracker\t\t\t\t\t\t\tInvalid\tInvalid\n"
+                          "30\tEye Tracker\t0.1\t0\t0.9\t\t\t\tValid\tInvalid\n"));
+    EXPECT_EQ(t.format, "tobii_pro_lab");
+    ASSERT_EQ(t.gaze.samples.size(), 3u);
+    EXPECT_LT(t.gaze.samples[0].direction.x, 0.0);
+    EXPECT_GT(t.gaze.samples[0].direction.y, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.z, 0.0);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 10'000'000);
+    EXPECT_FALSE(t.gaze.samples[1].valid);
+    EXPECT_EQ(t.gaze.samples[2].confidence, 0.5);
+}
+
+TEST(ImportTobii, ScreenTrackersHaveXToTheRightAndMicroseconds) {
+    const ImportedTrace t =
+        import_text(tobii("0\tEye Tracker\t0.1\t0.2\t-0.97\t0.1\t0.2\t-0.97\tValid\tValid\n"
+                          "4000\tEye Tracker\t0.1\t0.2\t-0.97\t0.1\t0.2\t-0.97\tValid\tValid\n",
+                          "Recording timestamp"));
+    EXPECT_GT(t.gaze.samples[0].direction.x, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.z, 0.0);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 4'000'000);
+}
+
+TEST(Import, RowsThatDoNotGoOnInTimeAreLeftOutAndCounted) {
+    const ImportedTrace t = import_text("0,0,0,0,1\n0.1,0,0,0,1\n0.1,0,0,0,1\n0.05,0,0,0,1\n");
+    EXPECT_EQ(t.head.samples.size(), 2u);
+    ASSERT_FALSE(t.notes.empty());
+    EXPECT_THAT(t.notes[0], HasSubstr("2 samples left out"));
+}
+
+TEST(Import, ErrorsNameFileAndLine) {
+    const auto from = [](const std::string& text, const std::string& format) {
+        return [=] { import_text(text, format); };
+    };
+    EXPECT_THAT(from("a,b\n1,2\n", ""), ThrowsMessage<SceneError>(HasSubstr("some.txt:1")));
+    EXPECT_THAT(from("", ""), ThrowsMessage<SceneError>(HasSubstr("some.txt")));
+    EXPECT_THAT(from("a\n1\n", "smi"), ThrowsMessage<std::invalid_argument>(HasSubstr("tobii")));
+    EXPECT_THAT(from("0,0,0,0,1\n0.1,0,0,0\n", ""),
+                ThrowsMessage<SceneError>(HasSubstr("some.txt:2")));
+    EXPECT_THAT(from("0,0,0,0,0\n", ""), ThrowsMessage<SceneError>(HasSubstr("no rotation")));
+    EXPECT_THAT(from("0,0,0\n", ""), ThrowsMessage<SceneError>(HasSubstr("8 values")));
+    std::string vive = kVive;
+    vive.replace(vive.find("0.1;0.2"), 3, "0.x");
+    EXPECT_THAT(from(vive, ""), ThrowsMessage<SceneError>(
+                                    AllOf(HasSubstr("some.txt:2"), HasSubstr("gaze_direct_L.x"))));
+}
+
+// --- the recordings that others made ---
+
+class SharedTraces : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!fs::is_directory(folder_))
+            GTEST_SKIP() << folder_ << " is not here";
+    }
+    ImportedTrace read(const char* file) const { return import_trace(folder_ / file, ""); }
+    const fs::path folder_ = fs::path(MACULA_SHARED_DIR) / "traces";
+};
+
+struct Yaw {
+    double range = 0.0, fastest = 0.0; // degrees, degrees a second
+};
+
+Yaw yaw_of(const HeadRecording& head) {
+    Yaw yaw;
+    double lo = 0.0, hi = 0.0, sum = 0.0, last = 0.0;
+    for (std::size_t i = 0; i < head.samples.size(); ++i) {
+        const double now =
+            angles_of_direction(head.samples[i].orientation * glm::dvec3(0.0, 0.0, -1.0)).x;
+        if (i > 0) {
+            const double step = std::remainder(now - last, 360.0);
+            sum += step;
+            // Over about 40 ms: positions are rounded and times jitter.
+            if (i >= 5) {
+                const double before = angles_of_direction(head.samples[i - 5].orientation *
+                                                          glm::dvec3(0.0, 0.0, -1.0))
+                                          .x;
+                const double seconds = 1e-9 * static_cast<double>(head.samples[i].time_ns -
+                                                                  head.samples[i - 5].time_ns);
+                yaw.fastest = std::fmax(yaw.fastest,
+                                        std::fabs(std::remainder(now - before, 360.0)) / seconds);
+            }
+        }
+        lo = std::fmin(lo, sum);
+        hi = std::fmax(hi, sum);
+        last = now;
+    }
+    yaw.range = hi - lo;
+    return yaw;
+}
+
+TEST_F(SharedTraces, ViveHeadsTurnAsFarAsTheirNotesSay) {
+    const struct {
+        const char* file;
+        double range;
+    } cases[] = {{"vive_pro_eye_head_gaze/TESTNA01_2D_Fist3.csv", 37.0},
+                 {"vive_pro_eye_head_gaze/TESTNA01_360VR_Fist3.csv", 52.0},
+                 {"vive_pro_eye_head_gaze/TESTNA05_360VR_Spread7.csv", 72.0}};
+    for (const auto& c : cases) {
+        const ImportedTrace t = read(c.file);
+        const Yaw yaw = yaw_of(t.head);
+        EXPECT_LT(yaw.fastest, 200.0) << c.file << ": a jolt";
+        EXPECT_NEAR(yaw.range, c.range, 1.0) << c.file;
+        std::size_t invalid = 0;
+        for (const GazeSample& s : t.gaze.samples) {
+            EXPECT_NEAR(glm::length(s.direction), 1.0, 1e-12);
+            EXPECT_LT(s.direction.z, 0.0);
+            invalid += s.valid ? 0 : 1;
+        }
+        const double part =
+            static_cast<double>(invalid) / static_cast<double>(t.gaze.samples.size());
+        EXPECT_GT(part, 0.01) << c.file;
+        EXPECT_LT(part, 0.15) << c.file;
+    }
+}
+
+TEST_F(SharedTraces, ViveEyesConverge) {
+    // The left eye looks to the right of the right one at whatever is near; crossed signs of x
+    // would make them diverge.
+    const ImportedTrace t = read("vive_pro_eye_head_gaze/TESTNA01_2D_Fist3.csv");
+    double sum = 0.0, count = 0.0;
+    for (const GazeSample& s : t.gaze.samples) {
+        if (!s.left || !s.right)
+            continue;
+        sum += s.left->x - s.right->x;
+        ++count;
+    }
+    EXPECT_GT(count, 1000.0);
+    EXPECT_GT(sum / count, -0.01);
+}
+
+TEST_F(SharedTraces, PicoAndQuaternionHeads) {
+    const ImportedTrace pico = read("pico_neo3_head_gaze/boxing_VR.csv");
+    EXPECT_EQ(pico.gaze.samples.size(), 492u);
+    EXPECT_LT(yaw_of(pico.head).fastest, 400.0);
+    for (const char* file : {"R51ADW_5.csv", "UBCLRB_24.csv"}) {
+        const ImportedTrace head = read((std::string("head_360video_quat/") + file).c_str());
+        EXPECT_NEAR(1e-9 * static_cast<double>(head.head.samples.back().time_ns), 60.0, 0.2);
+        for (std::size_t i = 1; i < head.head.samples.size(); ++i)
+            ASSERT_GT(
+                glm::dot(head.head.samples[i - 1].orientation, head.head.samples[i].orientation),
+                0.9)
+                << file << " row " << i;
+    }
+}
+
+} // namespace
+} // namespace macula::scene
