@@ -1,5 +1,6 @@
 # Shared by ./demo and ./check: installs what is missing from Debian, configures and builds.
-# Sourced by bash; the caller has set -euo pipefail and stands in the repository's root.
+# Sourced by bash; the caller has set -euo pipefail, program, arguments and summary, and stands in
+# the repository's root.
 
 # What building and running need; what only the tests need.
 build_packages=(
@@ -9,7 +10,8 @@ build_packages=(
   libtinygltf-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev
   libzstd-dev zlib1g-dev
 )
-test_packages=(libgtest-dev libgmock-dev oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3)
+test_packages=(libgtest-dev libgmock-dev oclgrind mesa-opencl-icd clang libclang-rt-14-dev
+  python3-venv)
 
 say() { printf '%s: %s\n' "$program" "$*"; }
 
@@ -44,22 +46,22 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build DIRECTORY [CMAKE-OPTION...]: configures once, builds what is out of date.
+# build PRESET [CMAKE-OPTION...]: configures by CMakePresets.json and builds what is out of date;
+# build/PRESET.log says what happened.
 build() {
-  local directory=$1 log
+  local preset=$1 directory=build/$1 log=build/$1.log
   shift
-  log=$directory.log
-  mkdir -p "$(dirname "$directory")"
+  mkdir -p build
   say "building $directory (log: $log)"
-  if ! { cmake -S . -B "$directory" -G Ninja "$@" && cmake --build "$directory"; } >"$log" 2>&1; then
+  if ! { cmake --preset "$preset" "$@" && cmake --build --preset "$preset"; } >"$log" 2>&1; then
     tail -n 40 "$log" >&2
     say "the build of $directory failed; the whole log is in $log" >&2
-    exit 1
+    return 1
   fi
 }
 
 usage() {
-  printf 'usage: ./%s [--no-install]\n%s\n' "$program" "$summary"
+  printf 'usage: ./%s %s\n%s\n' "$program" "$arguments" "$summary"
 }
 
 parse_options() {

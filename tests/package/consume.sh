@@ -18,9 +18,12 @@ find_package(macula REQUIRED)
 add_executable(example example.cpp)
 target_link_libraries(example PRIVATE macula::macula)
 CMAKE
-cmake -S "$scratch/project" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/log" 2>&1 &&
-  cmake --build "$scratch/build" >>"$scratch/log" 2>&1 || { tail -n 30 "$scratch/log"; exit 1; }
+if ! { cmake -S "$scratch/project" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$scratch/prefix" && cmake --build "$scratch/build"; } \
+  >"$scratch/log" 2>&1; then
+  tail -n 30 "$scratch/log"
+  exit 1
+fi
 (cd "$scratch" && "$scratch/build/example")
 "$scratch/prefix/bin/macula" --version
 echo 'consume: the installed package builds and runs the example of the README'

@@ -1,30 +1,38 @@
 #!/usr/bin/env bash
-# Runs every command of the documents: each line of a ```sh block that starts with "build/" or
-# "macula". Lines that need material this checkout does not have (../shared) are skipped by name.
-# Usage: documents.sh BUILD-DIRECTORY
+# Runs every line of every ```sh block of the documents, as it stands there, in a folder that looks
+# like a checkout after ./demo. Lines that need material that is not here (../shared) are counted as
+# skipped. Usage: documents.sh BUILD-DIRECTORY
 set -euo pipefail
-macula=$(realpath "$1/macula")
+build=$(realpath "$1")
 repository=$PWD
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+# Its own cache: `macula tune --quick` must not leave its figures behind.
+export MACULA_CACHE_DIR=$scratch/cache
+mkdir -p "$scratch/checkout/build"
+ln -s "$build" "$scratch/checkout/build/release"
+if [[ -d ../shared ]]; then
+  ln -s "$(realpath ../shared)" "$scratch/shared"
+fi
+cd "$scratch/checkout"
+
+commands() {
+  awk '/^```/ {inside = ($0 == "```sh"); next} inside && NF && !/^#/ && !seen[$0]++' \
+    "$repository"/*.md "$repository"/docs/*.md
+}
+
 ran=0 skipped=0 failed=0
 while IFS= read -r line; do
-  command=${line#build/release/macula}
-  command=${command#macula}
-  if [[ $command == *'../shared'* && ! -d $repository/../shared ]]; then
+  if [[ $line == *'../shared'* && ! -d ../shared ]]; then
     skipped=$((skipped + 1))
     continue
   fi
-  command=${command//..\/shared/$repository/../shared}
   ran=$((ran + 1))
-  if ! (eval "timeout 600 '$macula' $command") >out.log 2>&1; then
+  if ! timeout 600 bash -euc "$line" >../log 2>&1 </dev/null; then
     failed=$((failed + 1))
     printf 'documents: failed: %s\n' "$line"
-    tail -n 3 out.log
+    tail -n 5 ../log
   fi
-done < <(cat "$repository"/README.md "$repository"/docs/*.md |
-  awk '/^```/ {inside = ($0 == "```sh")} inside' |
-  grep -E '^(build/release/)?macula ' | sort -u)
+done < <(commands)
 echo "documents: $ran commands ran, $skipped skipped, $failed failed"
 ((failed == 0 && ran > 0))

@@ -39,7 +39,8 @@ install_intel() {
   echo "$library" >"$intel/vendors/intel.icd"
 }
 
-runtimes=("pocl basic|POCL_DEVICES=basic|--device|0")
+# NAME|ENVIRONMENT
+runtimes=("pocl basic|POCL_DEVICES=basic")
 # rusticl's compiler takes minutes and over 10 GiB for the larger kernels (Mesa 22.3), so there only
 # layouts, arithmetic and the prefix sum are compared.
 if [[ -e /etc/OpenCL/vendors/rusticl.icd ]]; then
@@ -53,7 +54,7 @@ else
 fi
 if install_intel; then
   # Its own loader and threads come with it, newer than Debian's.
-  runtimes+=("intel cpu|OCL_ICD_VENDORS=$intel/vendors LD_LIBRARY_PATH=$intel/lib|--device|0")
+  runtimes+=("intel cpu|OCL_ICD_VENDORS=$intel/vendors LD_LIBRARY_PATH=$intel/lib")
 else
   echo 'runtimes: intel cpu skipped (intel-opencl-rt could not be installed from PyPI)'
 fi
@@ -63,9 +64,9 @@ for scene in cornell whitted tunnel_maps; do
   for lights in point area ao; do
     expected=$(hashes POCL_DEVICES=pthread -- "$scene" "${small[@]}" --lights "$lights" --device 0)
     for runtime in "${runtimes[@]}"; do
-      IFS='|' read -r name environment option value <<<"$runtime"
-      compare "$scene $lights on $name" "$expected" \
-        "$(hashes $environment -- "$scene" "${small[@]}" --lights "$lights" "$option" "$value")"
+      read -ra environment <<<"${runtime#*|}"
+      compare "$scene $lights on ${runtime%%|*}" "$expected" \
+        "$(hashes "${environment[@]}" -- "$scene" "${small[@]}" --lights "$lights" --device 0)"
     done
   done
 done
