@@ -8,12 +8,14 @@
 
 #include "host/frame/graph.hpp"
 #include "host/frame/lights.hpp"
+#include "host/stage/foveated.hpp"
 #include "host/stage/kit.hpp"
 
 namespace macula::method {
 
 struct Options {
     frame::LightMode lights = frame::LightMode::point;
+    stage::WeierOptions weier;
 };
 
 struct Method {
@@ -28,6 +30,7 @@ const Method& find_method(std::string_view name);
 
 // host/method/<name>.cpp
 frame::Graph make_full(const stage::Kit& kit, const Options& options);
+frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
 // The images that every method with a slot-ordered G-buffer can deliver besides its own colour:
 // stages for within for_each_sample. Their names are those of render::image_formats().

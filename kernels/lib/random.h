@@ -9,6 +9,9 @@ MACULA_SHARED_BEGIN
 /* Dimensions, so that no two uses share a number. */
 #define MACULA_DIMENSION_PIXEL 0u /* and the next one */
 #define MACULA_DIMENSION_AMBIENT_OCCLUSION 2u
+#define MACULA_DIMENSION_FOVEA 3u
+#define MACULA_DIMENSION_FOOTPRINT 4u    /* and the next one */
+#define MACULA_DIMENSION_LIGHT_FILTER 6u /* and the next one */
 #define MACULA_DIMENSION_LIGHTS 16u /* + light */
 
 /* Wellons' `lowbias32`: a bijection of 32 bits with a near-ideal avalanche. */

@@ -1,0 +1,62 @@
+#include "host/stage/cache.hpp"
+
+namespace macula::stage {
+
+frame::Stage extract_support(const FoveatedKit& kit) {
+    frame::Stage stage;
+    stage.name = "extract the support image and G-buffer";
+    stage.reads = {"ray count", "pixel of slot", "sampled colour", "surface depth",
+                   "surface geometric normal"};
+    stage.writes = {kit.per_support("support image", 16), kit.per_support("support geometry", 16)};
+    stage.prepare = [kit, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        auto kernel = kit.kit.library.kernel(kernel::VariantKey("cache/support"), "extract_support",
+                                             kit.kit.device);
+        return [kit, name, kernel](frame::Run& run) mutable {
+            kernel
+                .set(run.params_buffer(), kit.grid->params_buffer, kit.grid->cell_columns,
+                     kit.grid->cell_rows, run["ray count"], run["pixel of slot"],
+                     run["sampled colour"], run["surface depth"], run["surface geometric normal"],
+                     run["support image"], run["support geometry"])
+                .launch(name, {kit.kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+frame::Stage merge_cache(const FoveatedKit& kit, std::uint32_t light_bytes) {
+    frame::Stage stage;
+    stage.name = "update and merge the cache";
+    stage.reads = {"mesh vertices", "pixel keys",     "history kept", "sampling masks",
+                   "support image", "sampled colour", "sampled depth"};
+    stage.reads_last = {kit.image, "cache info"};
+    stage.writes = {per_pixel(kit.kit, kit.image, 16), per_pixel(kit.kit, "cache info", 8),
+                    per_pixel(kit.kit, "reprojected colour", 16)};
+    if (light_bytes != 0) {
+        stage.reads.push_back("sampled light");
+        stage.reads_last.push_back("light buffer");
+        stage.writes.push_back(per_pixel(kit.kit, "light buffer", light_bytes));
+    }
+    stage.prepare = [kit, light_bytes, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        const auto key = kernel::VariantKey("cache/merge").parameter("light", light_bytes / 4);
+        auto kernel = kit.kit.library.kernel(key, "merge_cache", kit.kit.device);
+        return [kit, light_bytes, name, kernel](frame::Run& run) mutable {
+            const compute::Buffer none;
+            const bool lit = light_bytes != 0;
+            const SupportGrid& grid = *kit.grid;
+            kernel
+                .set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
+                     run["mesh vertices"], run["pixel keys"], run["history kept"],
+                     run["sampling masks"], run.last(kit.image), run.last("cache info"),
+                     lit ? run.last("light buffer") : none, run["support image"],
+                     run["sampled colour"], run["sampled depth"], lit ? run["sampled light"] : none,
+                     run[kit.image], run["cache info"], lit ? run["light buffer"] : none,
+                     run["reprojected colour"])
+                .launch(name, {kit.packets()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+} // namespace macula::stage

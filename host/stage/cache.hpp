@@ -1,0 +1,17 @@
+// The cache of colours and what is known of them (Weier et al. 2016, section 3.4).
+#pragma once
+
+#include "host/stage/foveated.hpp"
+
+namespace macula::stage {
+
+// The parts of the list that lie on the support grid -> "support image" (float4: linear RGB
+// radiance) and "support geometry" (float4: geometric normal, depth), one entry a support sample.
+frame::Stage extract_support(const FoveatedKit& kit);
+
+// Samples, last frame's image and the support image -> this frame's image (`kit.image`), "cache
+// info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the "light buffer" from
+// "sampled light". "reprojected colour" is for looking at.
+frame::Stage merge_cache(const FoveatedKit& kit, std::uint32_t light_bytes);
+
+} // namespace macula::stage
