@@ -71,6 +71,8 @@ toml::table json_table(const std::string& text, const std::string& name) {
     } catch (const json::parse_error& error) {
         throw SceneError(name + ":" + std::to_string(line_number(text, error.byte)) +
                          ": no valid JSON: " + error.what());
+    } catch (const json::exception& error) { // a number beyond the range of a double
+        throw SceneError(name + ": no valid JSON: " + error.what());
     } catch (const SceneError& error) {
         throw SceneError(name + ": " + error.what());
     }

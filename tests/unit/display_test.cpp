@@ -223,6 +223,8 @@ TEST(DisplayFile, BrokenJsonIsAnErrorWithItsLine) {
     };
     EXPECT_THAT(parse_json("{\n\"width\": ,\n}"),
                 ThrowsMessage<SceneError>(HasSubstr("x.json:2: no valid JSON")));
+    EXPECT_THAT(parse_json("{\"width\": 11.1e11111}"),
+                ThrowsMessage<SceneError>(HasSubstr("x.json: no valid JSON")));
     EXPECT_THAT(parse_json("[1]"), ThrowsMessage<SceneError>(HasSubstr("an object")));
     EXPECT_THAT(parse_json(R"({"width": 1e300, "height": 2})"),
                 ThrowsMessage<SceneError>(AllOf(HasSubstr("x.json: key 'width'"))));
