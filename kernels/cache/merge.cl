@@ -1,98 +1,87 @@
 /* Cache update and merge (Weier et al. 2016, section 3.4), together with the last step of the
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
+#include "cache/light_value.h"
 #include "lib/cache_info.h"
 #include "lib/camera.h"
-#include "lib/reprojection.h"
+#include "lib/reprojection_packet.h"
 
-/* MACULA_LIGHT: components of the light buffer, 0 where the method has none, 1 (openness) or 4
- * (irradiance). */
-#if MACULA_LIGHT == 4
-typedef float4 LightValue;
-static inline bool is_lit(LightValue v) {
-    return v.x >= 0.0f && is_finite3(v.xyz);
-}
-#else
-typedef float LightValue;
-static inline bool is_lit(LightValue v) {
-    return v >= 0.0f && v < 1e30f;
-}
-#endif
-/* Of a pixel that has had no sample: no light is below 0. */
-#define UNLIT ((LightValue)(-1.0f))
-
-typedef struct Cache {
-    float4 colour;
-    LightValue light;
-    float rho;  /* 0: nothing is known */
-    uint touch; /* of lib/cache_info.h */
-    float inverse_depth;
-} Cache;
-
-/* Last frame's images; `light` may be null. */
+/* Last frame's images. */
 typedef struct Past {
     global const float4* colour;
     global const uint2* info;
     global const LightValue* light;
 } Past;
 
-/* A footprint of several texels is sampled at normally distributed places; `spread` is what it has
- * beyond one texel (section 3.2). */
-static inline float4 filtered_colour(const Past* past, global const FrameParams* frame,
-                                     const History* h, float spread, uint samples, uint key) {
-    float4 sum = (float4)(0.0f);
-    for (uint k = 0u; k < samples; ++k) {
-        /* Box and Muller's pair, with the radius by way of log2: sqrt(-2 ln u). */
-        const float u = 1.0f - random_unit(key, k, MACULA_DIMENSION_FOOTPRINT);
-        const float angle = random_unit(key, k, MACULA_DIMENSION_FOOTPRINT + 1u);
-        const float radius = spread * m_sqrt(-1.38629436f * m_log2(u));
-        float cosine;
-        const float sine = m_sin_cos_pi(angle + angle, &cosine);
-        const float2 at =
-            fma(h->per_x, (float2)(radius * cosine), fma(h->per_y, (float2)(radius * sine), h->at));
-        const Footing f = footing_at(at);
-        sum += bilinear4(past->colour, frame->width, frame->height, &f);
-    }
-    return sum * m_divide(1.0f, (float)samples);
+/* What the cache has for a pixel. */
+typedef struct Cache {
+    float4 colour;
+    LightValue light;
+    float rho;  /* 0: the colour is a guess */
+    uint touch; /* of lib/cache_info.h */
+} Cache;
+
+/* The four texels around a place, as indices, and how far it is from the first one. */
+typedef struct Texels {
+    uint index[4][16];
+    float to_x[16], to_y[16];
+    uint nearest[16];
+} Texels;
+
+/* Places are counted in 1/256 of a pixel, as texture units do: a place within 1/512 of a texel's
+ * middle is that texel exactly, so that nothing drifts while the view stands still. */
+static inline void find_texels(const HistoryPacket* history, uint width, uint height, Texels* t) {
+    const int16 x = convert_int16(rint(fma(history->x, (float16)(256.0f), (float16)(-128.0f))));
+    const int16 y = convert_int16(rint(fma(history->y, (float16)(256.0f), (float16)(-128.0f))));
+    const int16 right = (int16)((int)width - 1), bottom = (int16)((int)height - 1);
+    const int16 x0 = clamp(x >> 8, (int16)(0), right), x1 = clamp((x >> 8) + 1, (int16)(0), right);
+    const int16 y0 = clamp(y >> 8, (int16)(0), bottom) * (int)width;
+    const int16 y1 = clamp((y >> 8) + 1, (int16)(0), bottom) * (int)width;
+    vstore16(as_uint16(y0 + x0), 0, t->index[0]);
+    vstore16(as_uint16(y0 + x1), 0, t->index[1]);
+    vstore16(as_uint16(y1 + x0), 0, t->index[2]);
+    vstore16(as_uint16(y1 + x1), 0, t->index[3]);
+    vstore16(convert_float16(x & 255) * 0x1p-8f, 0, t->to_x);
+    vstore16(convert_float16(y & 255) * 0x1p-8f, 0, t->to_y);
+    const int16 near_x = (x & 255) >= 128 ? x1 : x0, near_y = (y & 255) >= 128 ? y1 : y0;
+    vstore16(as_uint16(near_y + near_x), 0, t->nearest);
 }
 
-static inline float squared_length(float2 v) {
-    return fma(v.x, v.x, v.y * v.y);
+static inline float4 bilinear(global const float4* image, const Texels* t, uint lane) {
+    const float4 a = image[t->index[0][lane]], b = image[t->index[1][lane]];
+    const float4 c = image[t->index[2][lane]], d = image[t->index[3][lane]];
+    const float4 top = fma(b - a, (float4)(t->to_x[lane]), a);
+    const float4 bottom = fma(d - c, (float4)(t->to_x[lane]), c);
+    return fma(bottom - top, (float4)(t->to_y[lane]), top);
 }
 
-/* The cache of the last frame at a pixel of this one. rho = 0 where there is none. */
-static inline Cache reprojected(const Past* past, const MeshTables* mesh,
-                                global const FrameParams* frame, global const WeierParams* weier,
-                                uint key, uint x, uint y) {
-    Cache cache;
-    cache.rho = 0.0f;
-    cache.touch = 0u;
-    cache.colour = (float4)(0.0f);
-    cache.light = UNLIT;
-    cache.inverse_depth = 0.0f;
+/* A footprint of several texels is sampled at normally distributed places (section 3.2). */
+static inline float4 filtered_colour(global const float4* image, const MeshTables* mesh,
+                                     global const FrameParams* frame,
+                                     global const WeierParams* weier, uint key, uint x, uint y) {
     const History h = find_history(mesh, weier, key, (float)x + 0.5f, (float)y + 0.5f);
-    if (!h.found)
-        return cache;
-    const uint width = frame->width, height = frame->height;
-    const Footing f = footing_at(h.at);
-    const float footprint = m_max(squared_length(h.per_x), squared_length(h.per_y));
-    /* Up to half a texel more than one, four neighbours are filter enough. */
-    if (footprint > 2.25f && weier->filter_samples > 0u)
-        cache.colour = filtered_colour(past, frame, &h, 0.5f, weier->filter_samples,
-                                       random_key(y * width + x, frame->frame, frame->seed));
-    else
-        cache.colour = bilinear4(past->colour, width, height, &f);
-    const uint nearest =
-        texel_index(f.x + (f.to_x >= 0.5f ? 1 : 0), f.y + (f.to_y >= 0.5f ? 1 : 0), width, height);
-    const uint2 info = past->info[nearest];
-    const float rho = as_float(info.x);
-    cache.inverse_depth = h.inverse_depth;
-    cache.touch = info.y;
-    /* What is not a number stays out. */
-    cache.rho = rho > 0.0f && rho < 1e6f && is_finite3(cache.colour.xyz) ? rho : 0.0f;
-    if (past->light)
-        cache.light = is_lit(past->light[nearest]) ? past->light[nearest] : UNLIT;
-    return cache;
+    const uint random = random_key(y * frame->width + x, frame->frame, frame->seed);
+    float4 sum = (float4)(0.0f);
+    for (uint k = 0u; k < weier->filter_samples; ++k) {
+        /* Box and Muller's pair, the radius by way of log2: sqrt(-2 ln u) times half a pixel. */
+        const float u = 1.0f - random_unit(random, k, MACULA_DIMENSION_FOOTPRINT);
+        const float turn = random_unit(random, k, MACULA_DIMENSION_FOOTPRINT + 1u);
+        const float radius = 0.5f * m_sqrt(m_max(-1.38629436f * m_log2(u), 0.0f));
+        float cosine;
+        const float sine = m_sin_cos_pi(turn + turn, &cosine);
+        const float2 at =
+            fma(h.per_x, (float2)(radius * cosine), fma(h.per_y, (float2)(radius * sine), h.at));
+        const float2 kept =
+            clamp(at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height));
+        const Footing f = footing_at(kept);
+        sum += bilinear4(image, frame->width, frame->height, &f);
+    }
+    return sum * m_divide(1.0f, (float)weier->filter_samples);
+}
+
+static inline bool is_number(float4 colour) {
+    const int4 finite = fabs(colour) < 1e30f;
+    return (finite.x & finite.y & finite.z) != 0;
 }
 
 /* The support image between its samples, by a quadratic B-spline over three by three of them: no
@@ -115,13 +104,47 @@ static inline float4 from_support(global const float4* image, global const Frame
                        image[texel_index(i + column - 1, j + row - 1, across, down)], line);
         sum = fma((float4)(wy[row]), line, sum);
     }
-    return (float4)(sum.xyz, 1.0f);
+    return sum;
 }
 
-/* The new sample and the cache have the same surface. */
-static inline bool same_surface(float depth, float inverse_depth, float threshold) {
-    const float ratio = depth * inverse_depth;
-    return fabs(ratio - 1.0f) <= threshold;
+/* A pixel's new state. */
+typedef struct Out {
+    global float4* colour;
+    global uint2* info;
+    global LightValue* light;
+} Out;
+
+static inline void take_sample(const Out* out, uint pixel, uint now, float4 colour,
+                               global const LightValue* light) {
+    out->colour[pixel] = colour;
+    out->info[pixel] = (uint2)(as_uint(1.0f), pack_touch(1.0f, now));
+    if (out->light)
+        out->light[pixel] = light[pixel];
+}
+
+/* Equation 1. */
+static inline void blend_sample(const Out* out, uint pixel, uint now,
+                                global const WeierParams* weier, float4 colour,
+                                global const LightValue* light, const Cache* cache) {
+    const float k = least_weight(age_of_touch(cache->touch, now), weier->log2_k_min,
+                                 weier->log2_k_slope, weier->k_max);
+    const float alpha = blending_weight(cache->rho, k);
+    const float4 blended = fma(colour - cache->colour, (float4)(alpha), cache->colour);
+    out->colour[pixel] = alpha < 1.0f ? (float4)(blended.xyz, 1.0f) : colour;
+    out->info[pixel] = (uint2)(as_uint(samples_worth(alpha, cache->rho)), pack_touch(alpha, now));
+    if (out->light) {
+        const LightValue lit = light[pixel];
+        out->light[pixel] = alpha < 1.0f && is_lit(cache->light)
+                                ? fma(lit - cache->light, (LightValue)(alpha), cache->light)
+                                : lit;
+    }
+}
+
+static inline uint known_lanes(const uint* keys) {
+    uint known = 0u;
+    for (uint lane = 0u; lane < 16u; ++lane)
+        known |= (keys[lane] & 1u) == 0u ? 1u << lane : 0u; /* MACULA_NO_KEY is odd, too */
+    return known;
 }
 
 /* One work-item a packet of sixteen pixels. `reprojected_colour` may be null, and the light
@@ -130,7 +153,7 @@ kernel void merge_cache(
     global const FrameParams* restrict frame, global const WeierParams* restrict weier,
     global const float* restrict mesh_columns, global const float* restrict mesh_rows,
     global const float4* restrict vertices, global const uint* restrict keys,
-    global const uint* restrict history, global const uint* restrict masks,
+    global const uint* restrict history_kept, global const uint* restrict masks,
     global const float4* restrict past_colour, global const uint2* restrict past_info,
     global const LightValue* restrict past_light, global const float4* restrict support_image,
     global const float4* restrict sampled_colour, global const float* restrict sampled_depth,
@@ -139,57 +162,78 @@ kernel void merge_cache(
     global float4* restrict reprojected_colour) {
     const uint packet = (uint)get_global_id(0);
     const uint width = frame->width, height = frame->height, now = frame->frame;
-    const uint mask = masks[packet];
-    const Past past = {past_colour, past_info, past_light};
-    const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
-    const bool has_history = *history != 0u;
+    const uint sampled = masks[packet] & 0xffffu, fresh = masks[packet] >> 16;
+    const Out out = {colour, info, light};
     uint x0, y0;
     pixel_of_slot(packet * 16u, width, &x0, &y0);
-    for (uint lane = 0u; lane < 16u; ++lane) {
-        const uint x = x0 + (lane & 3u), y = y0 + (lane >> 2);
-        if (x >= width || y >= height)
-            continue;
-        const uint pixel = y * width + x;
-        const bool sampled = (mask >> lane & 1u) != 0u, fresh = (mask >> (lane + 16u) & 1u) != 0u;
+    const uint columns = x0 < width ? min(width - x0, 4u) : 0u;
+    const uint rows = y0 < height ? min(height - y0, 4u) : 0u;
+    const uint inside = ((1u << columns) - 1u) * (0x1111u & ((1u << 4u * rows) - 1u));
+    for (uint lanes = fresh; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        const uint pixel = (y0 + (lane >> 2)) * width + x0 + (lane & 3u);
+        take_sample(&out, pixel, now, sampled_colour[pixel], sampled_light);
+    }
+    const uint rest = reprojected_colour ? inside : inside & ~fresh;
+    if (rest == 0u)
+        return;
+
+    uint key[16];
+    for (uint row = 0u; row < 4u; ++row)
+        vstore4(vload4(0, keys + (y0 + row) * weier->pitch + x0), row, key);
+    const uint known = *history_kept != 0u ? rest & known_lanes(key) : 0u;
+    const float16 x = (float)x0 + (float16)(0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f, 0.5f,
+                                            1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f);
+    const float16 y = (float)y0 + (float16)(0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f, 2.5f,
+                                            2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f);
+    const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
+    HistoryPacket history;
+    find_histories(&mesh, weier, key, known, x, y, &history);
+    Texels texels;
+    find_texels(&history, width, height, &texels);
+    float inverse_depth[16];
+    vstore16(history.inverse_depth, 0, inverse_depth);
+    const uint wide = weier->filter_samples > 0u ? history.wide : 0u;
+
+    for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes), bit = lanes & -lanes;
+        const uint px = x0 + (lane & 3u), py = y0 + (lane >> 2), pixel = py * width + px;
         Cache cache;
-        cache.rho = 0.0f;
+        cache.colour = (float4)(0.0f);
         cache.light = UNLIT;
-        const uint key = has_history ? keys[y * weier->pitch + x] : MACULA_NO_KEY;
-        const bool known = key != MACULA_NO_KEY && (key & 1u) == 0u;
-        if (known && (!fresh || reprojected_colour))
-            cache = reprojected(&past, &mesh, frame, weier, key, x, y);
+        cache.rho = 0.0f;
+        cache.touch = 0u;
+        bool found = (known & bit) != 0u;
+        if (found) {
+            cache.colour = (wide & bit) != 0u ? filtered_colour(past_colour, &mesh, frame, weier,
+                                                                key[lane], px, py)
+                                              : bilinear(past_colour, &texels, lane);
+            const uint2 word = past_info[texels.nearest[lane]];
+            const float rho = as_float(word.x);
+            /* What is not a number stays out of the cache. */
+            found = is_number(cache.colour) && rho >= 0.0f && rho < 1e6f;
+            cache.rho = found ? rho : 0.0f;
+            cache.touch = word.y;
+            if (light && found)
+                cache.light = kept_light(past_light[texels.nearest[lane]]);
+        }
         if (reprojected_colour)
-            reprojected_colour[pixel] = cache.rho > 0.0f ? cache.colour : (float4)(0.0f);
-        if (sampled) {
-            const float4 sample = sampled_colour[pixel];
-            const bool blended =
-                !fresh && cache.rho > 0.0f &&
-                same_surface(sampled_depth[pixel], cache.inverse_depth, weier->merge_threshold);
-            const float alpha =
-                blended
-                    ? blending_weight(cache.rho, least_weight(age_of_touch(cache.touch, now),
-                                                              weier->log2_k_min,
-                                                              weier->log2_k_slope, weier->k_max))
-                    : 1.0f;
-            colour[pixel] =
-                blended
-                    ? (float4)(fma(sample - cache.colour, (float4)(alpha), cache.colour).xyz, 1.0f)
-                    : sample;
-            info[pixel] = (uint2)(as_uint(blended ? samples_worth(alpha, cache.rho) : 1.0f),
-                                  pack_touch(alpha, now));
-            if (light) {
-                const LightValue lit = sampled_light[pixel];
-                light[pixel] = blended && is_lit(cache.light)
-                                   ? fma(lit - cache.light, (LightValue)(alpha), cache.light)
-                                   : lit;
-            }
+            reprojected_colour[pixel] = found ? (float4)(cache.colour.xyz, 1.0f) : (float4)(0.0f);
+        if ((fresh & bit) != 0u)
+            continue;
+        if ((sampled & bit) != 0u) {
+            const float same = fabs(fma(sampled_depth[pixel], inverse_depth[lane], -1.0f));
+            if (found && same <= weier->merge_threshold)
+                blend_sample(&out, pixel, now, weier, sampled_colour[pixel], sampled_light, &cache);
+            else
+                take_sample(&out, pixel, now, sampled_colour[pixel], sampled_light);
         } else {
-            const bool kept = cache.rho > 0.0f;
-            colour[pixel] = kept ? (float4)(cache.colour.xyz, 1.0f)
-                                 : from_support(support_image, frame, weier, x, y);
-            info[pixel] = kept ? (uint2)(as_uint(cache.rho), cache.touch) : (uint2)(0u);
+            const float4 shown =
+                found ? cache.colour : from_support(support_image, frame, weier, px, py);
+            colour[pixel] = (float4)(shown.xyz, 1.0f);
+            info[pixel] = (uint2)(as_uint(cache.rho), cache.touch);
             if (light)
-                light[pixel] = kept ? cache.light : UNLIT;
+                light[pixel] = cache.light;
         }
     }
 }

@@ -1,0 +1,26 @@
+/* A pixel of the light buffer. MACULA_LIGHT: its components, 0 where the method has none, 1
+ * (openness) or 4 (irradiance). */
+#ifndef MACULA_CACHE_LIGHT_VALUE_H
+#define MACULA_CACHE_LIGHT_VALUE_H
+
+#include "shared/language.h"
+
+#if MACULA_LIGHT == 4
+typedef float4 LightValue;
+static inline bool is_lit(LightValue v) {
+    return v.x >= 0.0f && v.x < 1e30f && v.y >= 0.0f && v.y < 1e30f && v.z >= 0.0f && v.z < 1e30f;
+}
+#else
+typedef float LightValue;
+static inline bool is_lit(LightValue v) {
+    return v >= 0.0f && v < 1e30f;
+}
+#endif
+/* Of a pixel that has had no sample: no light is below 0. */
+#define UNLIT ((LightValue)(-1.0f))
+
+static inline LightValue kept_light(LightValue v) {
+    return is_lit(v) ? v : UNLIT;
+}
+
+#endif
