@@ -20,6 +20,14 @@ export OCLGRIND_BUILD_OPTIONS='-cl-opt-disable -Dalways_inline=unused'
 failures=0
 runs=0
 
+# findings LOG: the first line of each. One race is meant and left out: draw_mesh reads a key before it
+# lowers it by atomic_min, and since keys only fall, an old value costs an atomic and nothing else.
+findings() {
+  awk '/^[^\t]/ {if (held != "") print held; held = $0}
+    /Kernel: draw_mesh/ && held ~ /^Read-write data race/ {held = ""}
+    END {if (held != "") print held}' "$1"
+}
+
 # under NAME CHECK=1 MACULA-ARGUMENT...: CHECK is OCLGRIND_DATA_RACES or OCLGRIND_UNINITIALIZED.
 under() {
   local name=$1 check=$2 log=$scratch/log
@@ -31,7 +39,7 @@ under() {
     echo "oclgrind: $name, $check: macula failed"
     tail -n 5 "$scratch/out"
     failures=$((failures + 1))
-  elif [[ -s $log ]]; then
+  elif [[ -n $(findings "$log") ]]; then
     echo "oclgrind: $name, $check:"
     head -n 12 "$log"
     failures=$((failures + 1))
@@ -44,8 +52,11 @@ picture=(--size 16x16 --out "$scratch/pictures")
 frame=(render cornell "${picture[@]}")
 aovs=albedo,irradiance,depth,position,normal,shading_normal,triangle,material,motion
 
+# Not for uninitialised reads: of two prefix sums, 256 and then 4095 elements, Oclgrind 21.10 calls
+# the second one's input uninitialised, and of the second one alone it does not. The frames below
+# run the same kernels.
+under 'layout, arithmetic and prefix sum' "$races" selftest --quick
 for check in "$races" "$uninitialised"; do
-  under 'layout, arithmetic and prefix sum' "$check" selftest --quick
   for lights in point area ao; do
     under "cornell, $lights lights" "$check" "${frame[@]}" --lights "$lights"
   done
@@ -58,6 +69,11 @@ for check in "$races" "$uninitialised"; do
     under "variant $variant" "$check" "${frame[@]}" --lights point --variant "$variant"
   done < <("$macula" variants --names)
 done
+while read -r method _; do
+  # Two frames: the second one reads the first one's history.
+  under "method $method" "$races" render whitted --size 24x24 --out "$scratch/pictures" \
+    --frames 0:2 --method "$method"
+done < <("$macula" explain)
 under 'textures' "$races" render tunnel_maps "${picture[@]}" --lights ao
 
 echo "oclgrind: $runs runs, $failures with findings"
