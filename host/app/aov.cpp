@@ -16,6 +16,12 @@ std::span<const Aov> aovs() {
         {"triangle", "triangle", {"Triangle"}},
         {"material", "material", {"Material"}},
         {"motion", "motion", {"Motion.X", "Motion.Y"}},
+        {"reprojected", "reprojected colour", {"Reprojected.R", "Reprojected.G", "Reprojected.B"}},
+        {"support", "support colour", {"Support.R", "Support.G", "Support.B"}},
+        {"sampling", "sampling", {"Sampling"}},
+        {"resampling", "resampling", {"Resampling"}},
+        {"age", "cache age", {"Age"}},
+        {"rho", "rho", {"Rho"}},
     };
     return all;
 }

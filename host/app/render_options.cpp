@@ -109,6 +109,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
     engine.variant = options.variant;
+    engine.weier = engine_options(options.weier);
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
@@ -139,6 +140,7 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--scene-size", scene_size, "Of voxel_city: blocks; 0: its default")
         ->capture_default_str();
     command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
+    weier.add_to(command);
     command.add_option("--variant", variant, "Traversal variant for all rays");
     command.add_option("--out", out, "Folder for the frames")->capture_default_str();
     command.add_option("--format", formats, "exr, png or both")->delimiter(',');

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/app/view_options.hpp"
+#include "host/app/weier_options.hpp"
 #include "host/render/renderer.hpp"
 #include "scenes/scene.hpp"
 
@@ -24,6 +25,7 @@ struct RenderOptions : ViewOptions {
     std::uint32_t scene_size = 0;
     std::uint64_t scene_seed = 1;
     float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
+    WeierOptions weier;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

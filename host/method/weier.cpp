@@ -3,37 +3,79 @@
 #include "host/method/method.hpp"
 #include "host/stage/ambient_occlusion.hpp"
 #include "host/stage/cache.hpp"
+#include "host/stage/filter_light.hpp"
 #include "host/stage/foveated_rays.hpp"
 #include "host/stage/light.hpp"
 #include "host/stage/primary.hpp"
 #include "host/stage/reprojection.hpp"
 #include "host/stage/shade.hpp"
+#include "host/stage/show.hpp"
 #include "host/stage/surface.hpp"
 
 namespace macula::method {
+namespace {
+
+// The part of the light buffer that a light mode fills: noisy, hence cached and filtered. Point
+// lights have no noise.
+struct Light {
+    bool occlusion, filtered;
+    std::uint32_t bytes;      // of a value; 0: nothing is cached
+    std::string fresh, image; // a slot's value, and the light buffer's name as an image
+
+    Light(frame::LightMode mode, bool post)
+        : occlusion(mode == frame::LightMode::ambient_occlusion),
+          filtered(post && mode != frame::LightMode::point),
+          bytes(!filtered ? 0 : (occlusion ? 4 : 16)),
+          fresh(occlusion ? "surface openness" : "surface irradiance"),
+          image(occlusion ? "ambient occlusion" : "irradiance") {}
+
+    const std::string& shaded() const {
+        static const std::string after = "filtered light";
+        return filtered ? after : fresh;
+    }
+};
+
+} // namespace
 
 frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
-    const bool occlusion = options.lights == frame::LightMode::ambient_occlusion;
-    const stage::FoveatedKit foveated{kit, std::make_shared<stage::SupportGrid>(stage::make_params(
-                                               options.weier, kit.width, kit.height))};
+    const Light light(options.lights, options.weier.post);
+    const bool occlusion = light.occlusion;
+    const stage::FoveatedKit foveated{kit,
+                                      std::make_shared<stage::SupportGrid>(
+                                          stage::make_params(options.weier, kit.width, kit.height)),
+                                      options.weier.overlay ? "image" : "colour"};
     frame::Graph graph("weier", "foveated samples and a reprojected cache (Weier et al. 2016)");
-    // Figure 2, block 1: reproject, detect errors, generate rays.
+
+    // Figure 2, block 1: reprojection and ray generation.
     graph.add(stage::project_mesh(foveated))
         .add(stage::draw_mesh(foveated))
         .add(stage::judge_history(foveated))
         .add(stage::choose_pixels(foveated));
-    // Block 2: ray tracing.
-    graph.for_each_sample({
+
+    // Block 2: ray tracing, and block 4, the post-processor, on the samples' light.
+    std::vector<frame::Stage> sampling = {
         stage::listed_rays(foveated),
         stage::trace_primary_rays(kit, kernel::RayClass::sparse),
         stage::resolve_surface(kit),
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
-        stage::shade(kit, !occlusion, occlusion),
-        stage::average_samples(kit, "surface colour", "sampled colour"),
-        stage::keep_first_sample(kit, "surface depth", "sampled depth", 4),
-    });
-    // Block 3: update and merge the cache.
-    graph.add(stage::extract_support(foveated)).add(stage::merge_cache(foveated, 0));
+    };
+    if (light.filtered)
+        sampling.push_back(stage::filter_light(foveated, light.fresh, light.image, light.bytes));
+    sampling.push_back(stage::shade(kit, !occlusion, occlusion, light.shaded(), light.shaded()));
+    sampling.push_back(stage::average_samples(kit, "surface colour", "sampled colour"));
+    sampling.push_back(stage::keep_first_sample(kit, "surface depth", "sampled depth", 4));
+    if (light.filtered)
+        sampling.push_back(occlusion
+                               ? stage::average_scalar_samples(kit, light.shaded(), "sampled light")
+                               : stage::average_samples(kit, light.shaded(), "sampled light"));
+    graph.for_each_sample(std::move(sampling));
+
+    // Block 3: cache update and merge.
+    graph.add(stage::extract_support(foveated))
+        .add(stage::merge_cache(foveated, light.image, light.bytes))
+        .add(stage::show_intermediates(foveated));
+    if (options.weier.overlay)
+        graph.add(stage::draw_overlay(foveated));
     return graph;
 }
 

@@ -26,6 +26,14 @@ constexpr std::array kFormats = {
     ImageFormat{"triangle", 1, 1, true, "scene-wide id; 4294967295: background"},
     ImageFormat{"material", 1, 1, true, "index; 4294967295: background"},
     ImageFormat{"motion", 2, 2, false, "pixels: last frame's position minus this frame's"},
+    // Of method weier (host/stage/show.hpp).
+    ImageFormat{"reprojected colour", 4, 3, false, "last frame's colour in this view; 0: none"},
+    ImageFormat{"support colour", 4, 3, false, "linear RGB of the nearest support sample"},
+    ImageFormat{"sampling", 1, 1, true, "0: not sampled, 1: blended, 2: taken as it is"},
+    ImageFormat{"resampling", 1, 1, true,
+                "1 depth, 2 luminance, 4 grazing, 8 stretched, 16 new: sum"},
+    ImageFormat{"cache age", 1, 1, true, "frames since the last sample; 1048575: none"},
+    ImageFormat{"rho", 1, 1, false, "samples that the colour is worth"},
 };
 
 bool has_highlights(const scene::Scene& scene) {
@@ -96,7 +104,7 @@ struct Renderer::State {
           graph(method::find_method(o.method).make(
               {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
                settings.ambient_occlusion_samples, has_highlights(scene), ray_totals},
-              {o.lights})),
+              {o.lights, o.weier})),
           timings(o.warm_up_frames) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.insert("colour");

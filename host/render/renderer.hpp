@@ -22,6 +22,7 @@
 #include "host/frame/lights.hpp"
 #include "host/frame/timings.hpp"
 #include "host/kernel/variants.hpp"
+#include "host/stage/foveated.hpp"
 #include "scenes/scene.hpp"
 
 namespace macula::render {
@@ -40,6 +41,7 @@ struct Options {
     std::optional<frame::Tangents> tangents;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
+    stage::WeierOptions weier; // of method "weier"
     frame::GeometryOptions geometry;
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

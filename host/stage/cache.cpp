@@ -24,7 +24,8 @@ frame::Stage extract_support(const FoveatedKit& kit) {
     return stage;
 }
 
-frame::Stage merge_cache(const FoveatedKit& kit, std::uint32_t light_bytes) {
+frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
+                         std::uint32_t light_bytes) {
     frame::Stage stage;
     stage.name = "update and merge the cache";
     stage.reads = {"mesh vertices", "pixel keys",     "history kept", "sampling masks",
@@ -34,14 +35,14 @@ frame::Stage merge_cache(const FoveatedKit& kit, std::uint32_t light_bytes) {
                     per_pixel(kit.kit, "reprojected colour", 16)};
     if (light_bytes != 0) {
         stage.reads.push_back("sampled light");
-        stage.reads_last.push_back("light buffer");
-        stage.writes.push_back(per_pixel(kit.kit, "light buffer", light_bytes));
+        stage.reads_last.push_back(light);
+        stage.writes.push_back(per_pixel(kit.kit, light, light_bytes));
     }
-    stage.prepare = [kit, light_bytes, name = stage.name] {
+    stage.prepare = [kit, light, light_bytes, name = stage.name] {
         kit.grid->prepare(kit.kit);
         const auto key = kernel::VariantKey("cache/merge").parameter("light", light_bytes / 4);
         auto kernel = kit.kit.library.kernel(key, "merge_cache", kit.kit.device);
-        return [kit, light_bytes, name, kernel](frame::Run& run) mutable {
+        return [kit, light, light_bytes, name, kernel](frame::Run& run) mutable {
             const compute::Buffer none;
             const bool lit = light_bytes != 0;
             const SupportGrid& grid = *kit.grid;
@@ -49,10 +50,9 @@ frame::Stage merge_cache(const FoveatedKit& kit, std::uint32_t light_bytes) {
                 .set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
                      run["mesh vertices"], run["pixel keys"], run["history kept"],
                      run["sampling masks"], run.last(kit.image), run.last("cache info"),
-                     lit ? run.last("light buffer") : none, run["support image"],
-                     run["sampled colour"], run["sampled depth"], lit ? run["sampled light"] : none,
-                     run[kit.image], run["cache info"], lit ? run["light buffer"] : none,
-                     run["reprojected colour"])
+                     lit ? run.last(light) : none, run["support image"], run["sampled colour"],
+                     run["sampled depth"], lit ? run["sampled light"] : none, run[kit.image],
+                     run["cache info"], lit ? run[light] : none, run["reprojected colour"])
                 .launch(name, {kit.packets()}, {kGroup});
         };
     };

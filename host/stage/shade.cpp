@@ -23,18 +23,20 @@ frame::Stage average(const Kit& kit, const std::string& from, const std::string&
 
 } // namespace
 
-frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion) {
+frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion,
+                   const std::string& irradiance, const std::string& openness) {
     frame::Stage stage;
     stage.name = "shade";
     stage.reads = {"ray count", "surface albedo", "surface emission"};
     if (direct_light)
-        stage.reads.insert(stage.reads.end(), {"surface irradiance"});
+        stage.reads.push_back(irradiance);
     if (direct_light && kit.highlights)
         stage.reads.insert(stage.reads.end(), {"surface specular", "surface highlight"});
     if (ambient_occlusion)
-        stage.reads.push_back("surface openness");
+        stage.reads.push_back(openness);
     stage.writes = {per_slot(kit, "surface colour", 16)};
-    stage.prepare = [kit, direct_light, ambient_occlusion, name = stage.name] {
+    stage.prepare = [kit, direct_light, ambient_occlusion, irradiance, openness,
+                     name = stage.name] {
         auto kernel =
             kit.library.kernel(kernel::VariantKey("shade/shade"), "shade_samples", kit.device);
         return [=](frame::Run& run) mutable {
@@ -43,9 +45,9 @@ frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion) {
             kernel
                 .set(run.params_buffer(), run["ray count"], run["surface albedo"],
                      highlights ? run["surface specular"] : none, run["surface emission"],
-                     direct_light ? run["surface irradiance"] : none,
+                     direct_light ? run[irradiance] : none,
                      highlights ? run["surface highlight"] : none,
-                     ambient_occlusion ? run["surface openness"] : none, run["surface colour"])
+                     ambient_occlusion ? run[openness] : none, run["surface colour"])
                 .launch(name, {kit.slots()}, {kGroup});
         };
     };

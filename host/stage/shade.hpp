@@ -6,8 +6,11 @@
 namespace macula::stage {
 
 // G-buffer and light buffer -> "surface colour" (float4 a slot: linear RGB radiance, 1).
-// `direct_light`, `ambient_occlusion`: which parts of the light buffer the method has.
-frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion);
+// `direct_light`, `ambient_occlusion`: which parts of the light buffer the method has; `irradiance`
+// and `openness` name them.
+frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion,
+                   const std::string& irradiance = "surface irradiance",
+                   const std::string& openness = "surface openness");
 
 // The mean over the pixel's samples: float or float4 a slot -> the same a pixel.
 frame::Stage average_samples(const Kit& kit, const std::string& from, const std::string& image);

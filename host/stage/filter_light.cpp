@@ -1,0 +1,31 @@
+#include "host/stage/filter_light.hpp"
+
+namespace macula::stage {
+
+frame::Stage filter_light(const FoveatedKit& kit, const std::string& light,
+                          const std::string& buffer, std::uint32_t light_bytes) {
+    frame::Stage stage;
+    stage.name = "post-process: light of neighbours";
+    stage.reads = {"mesh vertices", "pixel keys",    "history kept", "ray count",
+                   "pixel of slot", "surface depth", light};
+    stage.reads_last = {buffer};
+    stage.writes = {per_slot(kit.kit, "filtered light", light_bytes)};
+    stage.prepare = [kit, light, buffer, light_bytes, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        const auto key =
+            kernel::VariantKey("cache/filter_light").parameter("light", light_bytes / 4);
+        auto kernel = kit.kit.library.kernel(key, "filter_light", kit.kit.device);
+        return [kit, light, buffer, name, kernel](frame::Run& run) mutable {
+            const SupportGrid& grid = *kit.grid;
+            kernel
+                .set(run.params_buffer(), grid.params_buffer, run.sample(), grid.mesh_columns,
+                     grid.mesh_rows, run["mesh vertices"], run["pixel keys"], run["history kept"],
+                     run.last(buffer), run["ray count"], run["pixel of slot"], run["surface depth"],
+                     run[light], run["filtered light"])
+                .launch(name, {kit.kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+} // namespace macula::stage
