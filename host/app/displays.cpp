@@ -6,13 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
-#include <stdexcept>
 
 #include "host/app/command.hpp"
-#include "scenes/display.hpp"
+#include "scenes/gaze/spec.hpp"
 
 namespace {
 
@@ -110,38 +108,31 @@ void print(const Display& display, const glm::dvec3& gaze) {
     }
 }
 
-glm::dvec3 parse_gaze(const std::string& text) {
-    double right = 0.0, up = 0.0;
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%lf,%lf%n", &right, &up, &end) != 2 ||
-        text[static_cast<std::size_t>(end)] != '\0' || !(std::fabs(right) <= 180.0) ||
-        !(std::fabs(up) <= 90.0))
-        throw std::invalid_argument("--gaze \"" + text +
-                                    "\": X,Y in degrees to the right and up was expected");
-    return scene::direction_of_angles(right, up);
+/// Where the gaze looks at first.
+glm::dvec3 direction_of(const Display& display, const std::string& gaze) {
+    return scene::parse_gaze(gaze, {display, Eye::mono, {}})->at(0).direction;
 }
 
 int run(const Options& options) {
-    const glm::dvec3 gaze = parse_gaze(options.gaze);
     const std::vector<Display> displays =
         options.name.empty() ? scene::builtin_displays()
                              : std::vector<Display>{scene::find_display(options.name)};
     if (options.json) {
         ordered_json list = ordered_json::array();
         for (const Display& display : displays)
-            list.push_back(to_json(display, gaze));
+            list.push_back(to_json(display, direction_of(display, options.gaze)));
         fmt::print("{}\n", ordered_json{{"displays", list}}.dump(2));
         return 0;
     }
     for (const Display& display : displays)
-        print(display, gaze);
+        print(display, direction_of(display, options.gaze));
     return 0;
 }
 
 app::Run add(CLI::App& command) {
     auto options = std::make_shared<Options>();
     command.add_option("display", options->name, "One of them, or a file .toml or .json");
-    command.add_option("--gaze", options->gaze, "X,Y in degrees to the right and up")
+    command.add_option("--gaze", options->gaze, "As --gaze of render; where it looks at first")
         ->capture_default_str();
     command.add_flag("--json", options->json, "Print one JSON document");
     return [options] { return run(*options); };

@@ -210,6 +210,8 @@ int render_frames(const app::RenderOptions& options) {
             deliver(options, eyes[i], reports[i], json);
         progress.show(reports.front());
     }
+    if (const std::string status = views.gaze_status(); !status.empty())
+        fmt::print(stderr, "macula: gaze: {}\n", status);
     return interrupted != 0 ? kInterrupted : 0;
 }
 

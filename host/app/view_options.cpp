@@ -116,6 +116,10 @@ std::string Views::gaze_source() const {
     return gaze_ ? gaze_->describe() : "";
 }
 
+std::string Views::gaze_status() const {
+    return gaze_ ? gaze_->status() : "";
+}
+
 std::int64_t Views::time_ns(std::uint32_t frame) const {
     return std::llround(frame * (1e9 / display_.refresh_hz));
 }

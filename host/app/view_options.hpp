@@ -65,6 +65,8 @@ class Views {
     EyeFrame at(std::uint32_t frame, scene::Eye eye);
     /// What the gaze comes from; empty: along the camera's axis.
     std::string gaze_source() const;
+    /// What a live source received so far; else empty.
+    std::string gaze_status() const;
 
   private:
     scene::Camera head_at(std::int64_t time_ns) const;

@@ -41,6 +41,7 @@ class Smoothing : public GazeSource {
     }
 
     bool live() const override { return inner_->live(); }
+    std::string status() const override { return inner_->status(); }
     std::string describe() const override { return inner_->describe(); }
 
   private:
@@ -77,6 +78,7 @@ class Hold : public GazeSource {
     }
 
     bool live() const override { return inner_->live(); }
+    std::string status() const override { return inner_->status(); }
     std::string describe() const override { return inner_->describe(); }
 
   private:

@@ -36,6 +36,8 @@ class GazeSource {
     virtual ~GazeSource() = default;
     virtual GazeSample at(std::int64_t time_ns) = 0;
     virtual bool live() const { return false; }
+    // What came in so far, of live sources; else empty.
+    virtual std::string status() const { return {}; }
     virtual std::string describe() const = 0; // for messages and metadata, without line ends
 };
 

@@ -66,9 +66,11 @@ void parse_list(const std::string& what, const std::string& list,
             set(setting, item.substr(equals + 1), what, list);
             found = true;
         }
-        if (!found)
-            refuse(what, list,
-                   "'" + std::string(item) + "' is not KEY=VALUE with one of the keys " + known);
+        if (!found) {
+            std::string expected("'");
+            expected.append(item).append("' is not KEY=VALUE with one of the keys ").append(known);
+            refuse(what, list, expected);
+        }
     }
 }
 

@@ -29,6 +29,7 @@ class Wrapper : public GazeSource {
   public:
     explicit Wrapper(GazePointer inner) : inner_(std::move(inner)) {}
     bool live() const override { return inner_->live(); }
+    std::string status() const override { return inner_->status(); }
     std::string describe() const override { return inner_->describe(); }
 
   protected:

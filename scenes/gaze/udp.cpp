@@ -112,6 +112,12 @@ GazeSample UdpGaze::at(std::int64_t time_ns) {
     return newest_;
 }
 
+std::string UdpGaze::status() const {
+    return describe() + ": " + std::to_string(counts_.received) + " packets, " +
+           std::to_string(counts_.malformed) + " malformed, " + std::to_string(counts_.stale) +
+           " older than one before";
+}
+
 std::string UdpGaze::describe() const {
     return "UDP port " + std::to_string(port_) + " on 127.0.0.1";
 }

@@ -28,6 +28,7 @@ class UdpGaze : public GazeSource {
 
     GazeSample at(std::int64_t time_ns) override;
     bool live() const override { return true; }
+    std::string status() const override;
     std::string describe() const override;
 
     std::uint16_t port() const { return port_; }

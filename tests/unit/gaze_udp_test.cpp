@@ -78,6 +78,7 @@ TEST(UdpGaze, MalformedPacketsAreCountedAndChangeNothing) {
     EXPECT_EQ(gaze.at(1).direction, glm::dvec3(0.0, 0.0, -1.0));
     EXPECT_EQ(gaze.counts().malformed, std::size(bad));
     EXPECT_EQ(gaze.counts().received, std::size(bad) + 1);
+    EXPECT_THAT(gaze.status(), testing::HasSubstr("13 malformed"));
 }
 
 TEST(UdpGaze, AnInvalidPacketSaysThatTrackingIsLost) {
