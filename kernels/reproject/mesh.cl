@@ -31,6 +31,26 @@ static inline float carried_on(float here, float inner, float distance, float ou
     return inner > 0.0f && moved > 0.5f * here && moved < 2.0f * here ? moved : here;
 }
 
+/* What is not in front of the camera. */
+#define NO_VERTEX ((float4)(0.0f, 0.0f, -1.0f, 0.0f))
+
+/* The vertex (lib/reprojection.h) for a place in last frame's image and its inverse depth there. */
+static inline float4 project_vertex(global const FrameParams* frame, float x, float y,
+                                    float inverse) {
+    const float depth = m_divide(1.0f, inverse);
+    const uint width = frame->width, height = frame->height;
+    global const Camera *past = &frame->previous_camera, *now = &frame->camera;
+    const float3 direction = to_world(past, slope_at(past, width, height, x, y));
+    const float3 view =
+        scale_add3(direction, depth, vector_at(past->origin) - vector_at(now->origin));
+    float new_x, new_y;
+    if (!camera_project(now, width, height, view, &new_x, &new_y))
+        return NO_VERTEX;
+    const float new_depth = dot3(view, vector_at(now->forward));
+    return (float4)(clamped(new_x, -1e6f, 1e6f), clamped(new_y, -1e6f, 1e6f),
+                    m_divide(1.0f, new_depth), m_divide(depth, new_depth));
+}
+
 /* One work-item a support sample. `columns`, `rows`: where the samples lie, pixels;
  * `mesh_columns`, `mesh_rows`: the same with the outermost ones on the image's edge. */
 kernel void project_mesh(global const FrameParams* restrict frame,
@@ -45,9 +65,10 @@ kernel void project_mesh(global const FrameParams* restrict frame,
         return;
     const uint i = index % across, j = index / across;
     float inverse = inverse_depth_of(support[index]);
-    vertices[index] = (float4)(0.0f, 0.0f, -1.0f, 0.0f);
-    if (!(inverse > 0.0f))
+    if (!(inverse > 0.0f)) {
+        vertices[index] = NO_VERTEX;
         return;
+    }
     const float x = mesh_columns[i], y = mesh_rows[j];
     const uint inner_i = i == 0u ? 1u : (i + 1u == across ? i - 1u : i);
     const uint inner_j = j == 0u ? 1u : (j + 1u == down ? j - 1u : j);
@@ -57,18 +78,7 @@ kernel void project_mesh(global const FrameParams* restrict frame,
     if (inner_j != j)
         inverse = carried_on(inverse, inverse_depth_of(support[inner_j * across + i]),
                              rows[j] - rows[inner_j], y - rows[j]);
-    const float depth = m_divide(1.0f, inverse);
-    const uint width = frame->width, height = frame->height;
-    global const Camera *past = &frame->previous_camera, *now = &frame->camera;
-    const float3 direction = to_world(past, slope_at(past, width, height, x, y));
-    const float3 view =
-        scale_add3(direction, depth, vector_at(past->origin) - vector_at(now->origin));
-    float new_x, new_y;
-    if (!camera_project(now, width, height, view, &new_x, &new_y))
-        return;
-    const float new_depth = dot3(view, vector_at(now->forward));
-    vertices[index] = (float4)(clamped(new_x, -1e6f, 1e6f), clamped(new_y, -1e6f, 1e6f),
-                               m_divide(1.0f, new_depth), m_divide(depth, new_depth));
+    vertices[index] = project_vertex(frame, x, y, inverse);
 }
 
 /* A support sample as the detection of errors sees it. */
@@ -247,8 +257,39 @@ static inline float4 box_of(const float4* v) {
     return (float4)(low - 0.5f, high);
 }
 
+/* Nothing is drawn of a cell that lies outside of the view or spans too many pixels. */
+static inline bool is_drawable(const float4* v, global const FrameParams* frame) {
+    const float4 box = box_of(v);
+    return v[0].z > 0.0f && v[1].z > 0.0f && v[2].z > 0.0f && v[3].z > 0.0f && box.z > 0.0f &&
+           box.w > 0.0f && box.x < (float)frame->width && box.y < (float)frame->height &&
+           box.z - box.x < MOST_PIXELS && box.w - box.y < MOST_PIXELS;
+}
+
+/* `place`: the key without its rank. */
+static inline void draw_cell(const float4* v, uint place, bool torn,
+                             global const FrameParams* frame, global const WeierParams* weier,
+                             global uint* keys) {
+    if (!is_drawable(v, frame))
+        return;
+    Cell cell;
+    cell.has_upper = make_raster(v[0], v[1], v[3], 1.0f, &cell.upper);
+    cell.has_lower = make_raster(v[0], v[2], v[3], -1.0f, &cell.lower);
+    if (!cell.has_upper && !cell.has_lower)
+        return;
+    if (!cell.has_lower)
+        cell.lower = cell.upper;
+    cell.torn = torn;
+    cell.key = place;
+    draw(&cell, frame, weier, v[0].xy, box_of(v), keys);
+}
+
 /* One work-item a support sample; it draws the cell to the right of and below it. errors: the
- * resampling info, one word a support sample. */
+ * resampling info, one word a support sample.
+ *
+ * A cell across a silhouette is drawn twice, both times for new samples. As it is, behind all else,
+ * it covers what the front surface no longer hides. With all its corners moved to the front
+ * surface's depth it covers the fringe between the last sample on that surface and its edge, which
+ * the mesh would lose to whatever passes behind. */
 kernel void draw_mesh(global const FrameParams* restrict frame,
                       global const WeierParams* restrict weier,
                       global const float* restrict mesh_columns,
@@ -269,31 +310,29 @@ kernel void draw_mesh(global const FrameParams* restrict frame,
     Corner c[4];
     for (uint k = 0u; k < 4u; ++k) {
         v[k] = vertices[corners[k]];
-        if (!(v[k].z > 0.0f))
-            return;
         const float3 slope = slope_at(&frame->previous_camera, frame->width, frame->height,
                                       mesh_columns[i + (k & 1u)], mesh_rows[j + (k >> 1)]);
         c[k] = corner_at(to_world(&frame->previous_camera, slope), support[corners[k]],
                          support_image[corners[k]]);
     }
-    const float4 box = box_of(v);
-    if (!(box.z > 0.0f && box.w > 0.0f && box.x < (float)frame->width &&
-          box.y < (float)frame->height && box.z - box.x < MOST_PIXELS &&
-          box.w - box.y < MOST_PIXELS))
+    if (!is_drawable(v, frame))
         return;
     const float2 size =
         (float2)(mesh_columns[i + 1u] - mesh_columns[i], mesh_rows[j + 1u] - mesh_rows[j]);
     const uint found = errors_of(c, v, size, weier);
-    Cell cell;
-    cell.has_upper = make_raster(v[0], v[1], v[3], 1.0f, &cell.upper);
-    cell.has_lower = make_raster(v[0], v[2], v[3], -1.0f, &cell.lower);
-    if (!cell.has_lower)
-        cell.lower = cell.upper;
-    cell.torn = (found & MACULA_RESAMPLE_DEPTH) != 0u;
-    cell.key = (j << weier->cell_bits_x | i) << 1 | (found != 0u ? 1u : 0u);
     errors[index] = found | MACULA_CELL_IN_VIEW;
-    if (cell.has_upper || cell.has_lower)
-        draw(&cell, frame, weier, v[0].xy, box, keys);
+    const uint place = (j << weier->cell_bits_x | i) << 1 | (found != 0u ? 1u : 0u);
+    const bool torn = (found & MACULA_RESAMPLE_DEPTH) != 0u;
+    draw_cell(v, place, torn, frame, weier, keys);
+    if (!torn)
+        return;
+    const float front = m_max(m_max(c[0].inverse_depth, c[1].inverse_depth),
+                              m_max(c[2].inverse_depth, c[3].inverse_depth));
+    for (uint k = 0u; k < 4u; ++k)
+        if (c[k].inverse_depth < fma(-0.5f, weier->depth_threshold, 1.0f) * front)
+            v[k] =
+                project_vertex(frame, mesh_columns[i + (k & 1u)], mesh_rows[j + (k >> 1)], front);
+    draw_cell(v, place, false, frame, weier, keys);
 }
 
 /* A cut or a teleport shows less than half of what the last frame saw: then all of the history is

@@ -1,0 +1,94 @@
+// Method weier frame by frame, with every resource of its graph at hand.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "host/frame/frame_params.hpp"
+#include "host/frame/surfaces.hpp"
+#include "host/kernel/library.hpp"
+#include "host/method/method.hpp"
+#include "scenes/scene.hpp"
+
+namespace macula::test {
+
+struct WeierSetup {
+    std::uint32_t width = 96, height = 80;
+    frame::LightMode lights = frame::LightMode::point;
+    std::uint32_t samples = 4; // of area lights and ambient occlusion
+    std::optional<frame::Tangents> tangents;
+    std::set<std::string> outputs;
+    stage::WeierOptions weier;
+    std::string method = "weier";
+};
+
+class WeierFrames {
+  public:
+    WeierFrames(const compute::Device& on, const scene::Scene& scene, const WeierSetup& setup)
+        : device(on), setup_(setup), geometry_(device, scene, {}),
+          surfaces_(device, scene, geometry_.parts()),
+          tracer_(device, library_, geometry_, stage::choose_variants(device)),
+          lights_(frame::make_lights(scene, setup.lights, setup.samples)),
+          totals_(device.upload(std::span(kNoRays), "ray counts")),
+          graph_(method::find_method(setup.method)
+                     .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
+                            setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_},
+                           {setup.lights, setup.weier})) {
+        std::set<std::string> outputs = setup.outputs;
+        outputs.insert("colour");
+        graph_.compile(device, outputs);
+    }
+
+    // `gaze`: world space; straight ahead without one.
+    void run(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze = {}) {
+        frame::FrameSettings s;
+        s.width = setup_.width;
+        s.height = setup_.height;
+        s.light_count = static_cast<std::uint32_t>(lights_.size());
+        s.ambient_occlusion_samples = occlusion() ? setup_.samples : 0;
+        for (float& ambient : s.ambient)
+            ambient = occlusion() ? 1.0f : 0.2f;
+        const auto tangents = setup_.tangents.value_or(
+            frame::tangents_of(view.vertical_fov_degrees, s.width, s.height));
+        const shared::Camera camera = frame::make_camera(view, tangents);
+        params = frame::make_params(s, frame, camera, last_, gaze);
+        last_ = camera;
+        graph_.execute(params);
+        device.finish();
+    }
+
+    template <class T>
+    std::vector<T> read(const std::string& name) const {
+        const auto mapped = graph_.result(name).map_read<T>();
+        return {mapped.begin(), mapped.end()};
+    }
+    // A handle of the resource, for tampering with it.
+    compute::Buffer buffer(const std::string& name) const { return graph_.result(name); }
+    std::uint64_t rays(kernel::RayClass ray_class) const {
+        return totals_.read_one<std::uint64_t>(static_cast<std::uint64_t>(ray_class));
+    }
+
+    compute::Device device;
+    shared::FrameParams params{};
+
+  private:
+    static constexpr std::array<std::uint64_t, kernel::kRayClasses.size()> kNoRays{};
+
+    bool occlusion() const { return setup_.lights == frame::LightMode::ambient_occlusion; }
+
+    WeierSetup setup_;
+    kernel::Library library_;
+    frame::DeviceGeometry geometry_;
+    frame::DeviceSurfaces surfaces_;
+    stage::Tracer tracer_;
+    std::vector<shared::Light> lights_;
+    compute::Buffer totals_;
+    frame::Graph graph_;
+    std::optional<shared::Camera> last_;
+};
+
+} // namespace macula::test
