@@ -159,6 +159,18 @@ TEST(ImportTobii, ScreenTrackersHaveXToTheRightAndMicroseconds) {
     EXPECT_EQ(t.gaze.samples[1].time_ns, 4'000'000);
 }
 
+TEST(ImportTobii, DisplayCoordinatesHaveYDown) {
+    std::string text = tobii("0\tEye Tracker\t0.1\t0.2\t0.97\t0.1\t0.2\t0.97\tValid\tValid\n");
+    for (std::size_t at = 0; (at = text.find("Gaze direction", at)) != std::string::npos;) {
+        at = text.find('\t', at);
+        text.insert(at, " [DACS norm]");
+    }
+    const ImportedTrace t = import_text(text);
+    EXPECT_GT(t.gaze.samples[0].direction.x, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.y, 0.0);
+    EXPECT_LT(t.gaze.samples[0].direction.z, 0.0);
+}
+
 TEST(Import, RowsThatDoNotGoOnInTimeAreLeftOutAndCounted) {
     const ImportedTrace t = import_text("0,0,0,0,1\n0.1,0,0,0,1\n0.1,0,0,0,1\n0.05,0,0,0,1\n");
     EXPECT_EQ(t.head.samples.size(), 2u);
