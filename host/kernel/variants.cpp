@@ -21,7 +21,7 @@ constexpr std::array kPacketStream = {
 };
 constexpr std::array kStream = {
     work_group(1),
-    Parameter{"rays_per_item", 64, 8192, 1024, true, ParameterUse::literal,
+    Parameter{"rays_per_item", 64, 8192, 2048, true, ParameterUse::literal,
               "rays that a work-item sorts"},
     Parameter{"chunk", 4, 32, 32, true, ParameterUse::literal, "rays that share a traversal"},
 };
@@ -40,7 +40,9 @@ constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 
 
 // A packet's rays and results, in bytes: about 27 vectors of 64.
 constexpr std::uint32_t kPacket = 27 * 64;
-constexpr std::uint32_t kStreamRay = 176;
+// A ray of a stream, among its chunks and sorted.
+constexpr std::uint32_t kStreamRay = 68;
+constexpr std::uint32_t kSortedRay = 35;
 
 constexpr RayClassSet bit(RayClass ray_class) {
     return 1u << static_cast<unsigned>(ray_class);
@@ -76,14 +78,14 @@ constexpr Variant kVariants[] = {
         .name = "stream",
         .paper = "Tsakok 2009, section 3",
         .layout = bvh::Layout::wide8_block,
-        .rays_per_item = 1024,
+        .rays_per_item = 2048,
         .launch = Launch::one_pass,
         .parameters = kStream,
         .unsafe = kNone,
         .preferred_on_cpu =
             bit(RayClass::ambient_occlusion) | bit(RayClass::diffuse) | bit(RayClass::random),
         .preferred_on_gpu = kNone,
-        .private_bytes = 1024 * 3 + 32 * kStreamRay + kWide8Stack,
+        .private_bytes = 2048 * kSortedRay + 2 * (32 * kStreamRay + kWide8Stack),
     },
     {
         .name = "wide8_quantized",

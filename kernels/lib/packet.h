@@ -2,8 +2,7 @@
 #ifndef MACULA_LIB_PACKET_H
 #define MACULA_LIB_PACKET_H
 
-#include "lib/ray.h"
-#include "lib/simd.h"
+#include "lib/ray16.h"
 #include "shared/bvh.h"
 
 /* Sixteen rays as they lie in the queue. A lane that is not active has t_max = -1 and the origin
@@ -64,15 +63,6 @@ static inline bool load_packet(global const RayBlock* block, uint count, QueuedP
     return true;
 }
 
-static inline float16 bounded_direction16(float16 d) {
-    const float16 least = d < 0.0f ? (float16)(-MACULA_MIN_DIRECTION) : MACULA_MIN_DIRECTION;
-    return fabs(d) < MACULA_MIN_DIRECTION ? least : d;
-}
-
-static inline float16 pick_axis16(int16 axis, float16 x, float16 y, float16 z) {
-    return axis == 0 ? x : (axis == 1 ? y : z);
-}
-
 static inline PacketBounds bound_packet(const float16 o[3], const float16 d[3], float16 t_min,
                                         float16 t_max) {
     const float16 up[8] = {o[0], o[1], o[2], d[0], d[1], d[2], t_min, t_min};
@@ -125,8 +115,7 @@ static inline void shear_packet(Packet* p, const float16 d[3], const PacketBound
         p->sy = d[ky] * p->sz;
         return;
     }
-    const float16 ax = fabs(d[0]), ay = fabs(d[1]), az = fabs(d[2]);
-    p->kz = (ax >= ay) & (ax >= az) ? (int16)(0) : (ay >= az ? (int16)(1) : (int16)(2));
+    p->kz = dominant_axis16(d[0], d[1], d[2]);
     p->axes = (any_lane16(p->kz == 0) ? 1u : 0u) | (any_lane16(p->kz == 1) ? 2u : 0u) |
               (any_lane16(p->kz == 2) ? 4u : 0u);
     p->sz = pick_axis16(p->kz, p->r[0], p->r[1], p->r[2]);

@@ -54,6 +54,22 @@ MACULA_INLINE bool ray_is_active(float t_min, float t_max) {
     return t_min >= 0.0f && t_min <= t_max;
 }
 
+/* Sets what box_interval needs from the origin and the reciprocal direction. */
+MACULA_ALWAYS_INLINE void set_offsets(TraceRay* r) {
+    const float px = r->ox * r->rx, py = r->oy * r->ry, pz = r->oz * r->rz;
+    const float reach = m_max(m_max(fabs(r->ox), fabs(r->oy)), m_max(fabs(r->oz), 0x1p-20f));
+    const float margin = MACULA_RAY_MARGIN * reach;
+    r->nx = fma(fabs(r->rx), -margin, -px);
+    r->ny = fma(fabs(r->ry), -margin, -py);
+    r->nz = fma(fabs(r->rz), -margin, -pz);
+    r->qx = r->rx * MACULA_FAR_SCALE;
+    r->qy = r->ry * MACULA_FAR_SCALE;
+    r->qz = r->rz * MACULA_FAR_SCALE;
+    r->fx = fma(fabs(r->rx), margin, -px) * MACULA_FAR_SCALE;
+    r->fy = fma(fabs(r->ry), margin, -py) * MACULA_FAR_SCALE;
+    r->fz = fma(fabs(r->rz), margin, -pz) * MACULA_FAR_SCALE;
+}
+
 MACULA_INLINE TraceRay make_trace_ray(float ox, float oy, float oz, float dx, float dy, float dz,
                                       float t_min, float t_max) {
     TraceRay r;
@@ -68,18 +84,7 @@ MACULA_INLINE TraceRay make_trace_ray(float ox, float oy, float oz, float dx, fl
     r.rx = m_divide(1.0f, dx);
     r.ry = m_divide(1.0f, dy);
     r.rz = m_divide(1.0f, dz);
-    const float px = ox * r.rx, py = oy * r.ry, pz = oz * r.rz;
-    const float reach = m_max(m_max(fabs(ox), fabs(oy)), m_max(fabs(oz), 0x1p-20f));
-    const float margin = MACULA_RAY_MARGIN * reach;
-    r.nx = fma(fabs(r.rx), -margin, -px);
-    r.ny = fma(fabs(r.ry), -margin, -py);
-    r.nz = fma(fabs(r.rz), -margin, -pz);
-    r.qx = r.rx * MACULA_FAR_SCALE;
-    r.qy = r.ry * MACULA_FAR_SCALE;
-    r.qz = r.rz * MACULA_FAR_SCALE;
-    r.fx = fma(fabs(r.rx), margin, -px) * MACULA_FAR_SCALE;
-    r.fy = fma(fabs(r.ry), margin, -py) * MACULA_FAR_SCALE;
-    r.fz = fma(fabs(r.rz), margin, -pz) * MACULA_FAR_SCALE;
+    set_offsets(&r);
     const float ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
     r.kz = (ax >= ay && ax >= az) ? 0u : (ay >= az ? 1u : 2u);
     r.kx = r.kz == 2u ? 0u : r.kz + 1u;

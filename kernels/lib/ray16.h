@@ -18,7 +18,7 @@ static inline float16 pick_axis16(int16 axis, float16 x, float16 y, float16 z) {
 /* kz of the bounded directions. */
 static inline int16 dominant_axis16(float16 dx, float16 dy, float16 dz) {
     const float16 ax = fabs(dx), ay = fabs(dy), az = fabs(dz);
-    return (ax >= ay) & (ax >= az) ? (int16)(0) : (ay >= az ? (int16)(1) : (int16)(2));
+    return ((ax >= ay) & (ax >= az)) ? (int16)(0) : (ay >= az ? (int16)(1) : (int16)(2));
 }
 
 static inline float16 reach16(float16 ox, float16 oy, float16 oz) {

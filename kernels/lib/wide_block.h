@@ -6,13 +6,13 @@
 #include "lib/math_vector.h"
 #include "lib/traverse_block8.h"
 
-/* A ray of a stream: its query, and the origin with the axes permuted. */
-typedef struct StreamRay {
+/* A ray among blocks: its query, and the origin with the axes permuted. */
+typedef struct BlockRay {
     TraceQuery query;
     float ox, oy, oz;
-} StreamRay;
+} BlockRay;
 
-static inline void permute_origin(StreamRay* s) {
+static inline void permute_origin(BlockRay* s) {
     const TraceRay* r = &s->query.ray;
     s->ox = pick_axis(r->kx, r->ox, r->oy, r->oz);
     s->oy = pick_axis(r->ky, r->ox, r->oy, r->oz);
@@ -25,7 +25,7 @@ typedef struct BlockEdges {
 } BlockEdges;
 
 /* The lanes whose triangle the ray's line crosses. */
-static inline int8 cross_edges8(const StreamRay* s, global const TriangleBlock8* block,
+static inline int8 cross_edges8(const BlockRay* s, global const TriangleBlock8* block,
                                 BlockEdges* e) {
     const TraceRay* r = &s->query.ray;
     const uint kx = r->kx, ky = r->ky, kz = r->kz;
@@ -83,7 +83,7 @@ static inline int8 clamp_to_triangles8(const TraceRay* r, global const TriangleB
 }
 
 /* Finishes the test of the lanes that the ray's line crosses; true when the query is answered. */
-static inline bool finish_block8(const TraceScene* scene, StreamRay* s,
+static inline bool finish_block8(const TraceScene* scene, BlockRay* s,
                                  global const TriangleBlock8* block, const BlockEdges* e,
                                  int8 hit) {
     const TraceRay* r = &s->query.ray;
@@ -107,7 +107,7 @@ static inline bool finish_block8(const TraceScene* scene, StreamRay* s,
 }
 
 /* True when the query is answered. */
-static inline bool test_leaf_of_stream(const TraceScene* scene, StreamRay* s, int leaf) {
+static inline bool test_leaf_of_blocks(const TraceScene* scene, BlockRay* s, int leaf) {
     const uint bits = (uint)~leaf;
     global const TriangleBlock8* block =
         (global const TriangleBlock8*)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);

@@ -1,163 +1,163 @@
-/* Up to 32 rays of one octant, in no other way alike, through the lower level in one traversal:
- * a node is loaded once for all rays that reach it. Layout wide8_block. (After Tsakok 2009,
- * "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing".) OpenCL C only. */
+/* Up to 32 rays of one class, in no other way alike, through the lower level in one traversal: a
+ * node is loaded once for all rays that reach it. Layout wide8_block. (After Tsakok 2009, "Faster
+ * Incoherent Rays: Multi-BVH Ray Stream Tracing".) There is no branch on what single rays find: a
+ * branch that waits for a box test costs as much as several of them. OpenCL C only. */
 #ifndef MACULA_LIB_WIDE_STREAM_H
 #define MACULA_LIB_WIDE_STREAM_H
 
-#include "lib/simd.h"
-#include "lib/wide_block.h"
+#include "lib/wide_stream_leaf.h"
 
-/* Each level leaves at most seven siblings behind. */
-#define MACULA_WIDE_STACK (7 * MACULA_MAX_DEPTH + 8)
+/* Each level leaves at most seven siblings behind; a push writes all eight children. */
+#define MACULA_STREAM_STACK (7 * MACULA_MAX_DEPTH + 16)
 
-/* Bit k of a ray mask stands for ray k of the chunk. */
 typedef struct StreamEntry {
     int child;
     uint rays;
 } StreamEntry;
 
-typedef struct StreamStack {
-    StreamEntry entry[MACULA_WIDE_STACK];
-    float near[MACULA_ANY_HIT ? 1 : MACULA_WIDE_STACK];
-    uint depth;
-} StreamStack;
-
-static inline uint first_ray(uint rays) {
-    return 31u - (uint)clz(rays & (~rays + 1u));
+/* Far planes are moved away by more than what box_interval adds to far distances, so that rays need
+ * only one offset an axis (docs/arithmetic.md). */
+static inline float8 far_plane8(global const Wide8Node* node, uint axis, const StreamClass* c) {
+    const uint side = (c->octant >> axis) & 1u;
+    const float8 plane = vload8(0, node->plane[axis][side ^ 1u]);
+    const float8 pad = fma(fabs(plane), (float8)(0x1p-19f), (float8)(c->margin));
+    return side != 0u ? plane - pad : plane + pad;
 }
 
-/* What the rays find in a node: lane c of `rays` is the mask of those that enter child c, lane c of
- * `near` the least t at which one does. */
+static inline float8 near_plane8(global const Wide8Node* node, uint axis, const StreamClass* c) {
+    return vload8(0, node->plane[axis][(c->octant >> axis) & 1u]);
+}
+
+/* What the rays find in a node. Lane c of `rays` is the mask of those that enter child c; children
+ * are visited in the order of `key`, which differ; keys of those that no ray enters are negative.
+ */
 typedef struct StreamChildren {
     int8 rays;
-    float8 near;
+    int8 key;
 } StreamChildren;
 
-static inline StreamChildren enter_children8(global const Wide8Node* node, const StreamRay* stream,
-                                             uint rays, uint octant) {
-    const uint sx = octant & 1u, sy = (octant >> 1) & 1u, sz = octant >> 2;
-    const float8 near_x = vload8(0, node->plane[0][sx]), far_x = vload8(0, node->plane[0][sx ^ 1u]);
-    const float8 near_y = vload8(0, node->plane[1][sy]), far_y = vload8(0, node->plane[1][sy ^ 1u]);
-    const float8 near_z = vload8(0, node->plane[2][sz]), far_z = vload8(0, node->plane[2][sz ^ 1u]);
+#define MACULA_LANES8 ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
+
+/* The child that most rays of an any-hit query enter comes first, else the one that is entered
+ * first by some ray. */
+static inline StreamChildren enter_children8(global const Wide8Node* node, const Stream* s,
+                                             const StreamClass* c, uint rays) {
+    const float8 near_plane_x = near_plane8(node, 0u, c), far_plane_x = far_plane8(node, 0u, c);
+    const float8 near_plane_y = near_plane8(node, 1u, c), far_plane_y = far_plane8(node, 1u, c);
+    const float8 near_plane_z = near_plane8(node, 2u, c), far_plane_z = far_plane8(node, 2u, c);
     StreamChildren found;
     found.rays = 0;
-    found.near = MACULA_EMPTY;
+    float8 nearest = MACULA_EMPTY;
+    int8 missing = 33;
     do {
-        const uint k = first_ray(rays);
+        const uint k = first_bit(rays);
         rays &= rays - 1u;
-        const TraceRay* r = &stream[k].query.ray;
-        float8 near, far;
-        box_interval8(r, near_x, near_y, near_z, far_x, far_y, far_z, &near, &far);
-        const int8 enters = near <= m_min8(far, (float8)(r->t_max));
+        const float8 near_x = fma(near_plane_x, (float8)(s->r[0][k]), (float8)(s->n[0][k]));
+        const float8 near_y = fma(near_plane_y, (float8)(s->r[1][k]), (float8)(s->n[1][k]));
+        const float8 near_z = fma(near_plane_z, (float8)(s->r[2][k]), (float8)(s->n[2][k]));
+        const float8 far_x = fma(far_plane_x, (float8)(s->r[0][k]), (float8)(s->n[0][k]));
+        const float8 far_y = fma(far_plane_y, (float8)(s->r[1][k]), (float8)(s->n[1][k]));
+        const float8 far_z = fma(far_plane_z, (float8)(s->r[2][k]), (float8)(s->n[2][k]));
+        const float8 near = m_max8(m_max8(near_x, near_y), m_max8(near_z, (float8)(0.0f)));
+        const float8 far = m_min8(m_min8(far_x, far_y), m_min8(far_z, (float8)(s->t_max[k])));
+        const int8 enters = near <= far;
         found.rays |= enters & (int8)((int)(1u << k));
-        found.near = enters ? m_min8(found.near, near) : found.near;
+#if MACULA_ANY_HIT
+        missing += enters;
+#else
+        nearest = enters ? m_min8(nearest, near) : nearest;
+#endif
     } while (rays != 0u);
+#if MACULA_ANY_HIT
+    const int8 key = missing << 3;
+#else
+    const int8 key = as_int8(nearest) & ~7;
+#endif
+    found.key = (found.rays != 0 ? key : (int8)(-8)) | MACULA_LANES8;
     return found;
 }
 
+static inline void put_child(StreamEntry* stack, int place, int child, int rays) {
+    stack[place].child = child;
+    stack[place].rays = (uint)rays;
+}
+
+/* Puts the children on the stack, the first one on top: each at the number of those that come after
+ * it, so that those which no ray enters end up above the top. */
+static inline uint push_children8(global const Wide8Node* node, const StreamChildren* found,
+                                  StreamEntry* stack, uint depth) {
+    const int8 key = found->key;
+    const int8 place = -(((int8)(key.s0) > key) + ((int8)(key.s1) > key) + ((int8)(key.s2) > key) +
+                         ((int8)(key.s3) > key) + ((int8)(key.s4) > key) + ((int8)(key.s5) > key) +
+                         ((int8)(key.s6) > key) + ((int8)(key.s7) > key));
+    stack += depth;
+    put_child(stack, place.s0, node->child[0], found->rays.s0);
+    put_child(stack, place.s1, node->child[1], found->rays.s1);
+    put_child(stack, place.s2, node->child[2], found->rays.s2);
+    put_child(stack, place.s3, node->child[3], found->rays.s3);
+    put_child(stack, place.s4, node->child[4], found->rays.s4);
+    put_child(stack, place.s5, node->child[5], found->rays.s5);
+    put_child(stack, place.s6, node->child[6], found->rays.s6);
+    put_child(stack, place.s7, node->child[7], found->rays.s7);
+    return depth + ((uint)popcount(lane_mask8(found->rays != 0)) >> 3);
+}
+
 static inline void fetch_child(const TraceScene* scene, int child) {
-    if (child >= 0) {
-        global const Wide8Node* node = (global const Wide8Node*)scene->nodes + child;
-        MACULA_FETCH(node, 0);
-        MACULA_FETCH(node, 64);
-        MACULA_FETCH(node, 128);
-        MACULA_FETCH(node, 192);
-    } else {
-        global const TriangleBlock8* block = (global const TriangleBlock8*)scene->triangles +
-                                             ((uint)~child >> MACULA_LEAF_COUNT_BITS);
-        MACULA_FETCH(block, 0);
-        MACULA_FETCH(block, 64);
-        MACULA_FETCH(block, 128);
-        MACULA_FETCH(block, 192);
-        MACULA_FETCH(block, 256);
-    }
+    const ulong node = (ulong)((global const Wide8Node*)scene->nodes + child);
+    const ulong block = (ulong)((global const TriangleBlock8*)scene->triangles +
+                                ((uint)~child >> MACULA_LEAF_COUNT_BITS));
+    const ulong address = child >= 0 ? node : block;
+    MACULA_FETCH(address, 0);
+    MACULA_FETCH(address, 64);
+    MACULA_FETCH(address, 128);
+    MACULA_FETCH(address, 192);
+    MACULA_FETCH(address, 256);
 }
 
-#if MACULA_ANY_HIT
-/* The child with most rays is visited first. */
-static inline void push_children(const TraceScene* scene, global const Wide8Node* node,
-                                 StreamChildren found, StreamStack* stack) {
-    ulong lanes = lane_mask8(found.rays != 0);
-    if (lanes == 0ul)
+/* Chunks that a traversal advances in turn: what one finds in a node takes longer to know than to
+ * compute, and meanwhile the other computes. */
+#define MACULA_STREAM_CHUNKS 2u
+
+typedef struct StreamWalk {
+    StreamEntry stack[MACULA_STREAM_STACK];
+    uint depth;
+    uint answered; /* rays whose query is answered */
+} StreamWalk;
+
+static inline void start_walk(StreamWalk* walk, int root, uint rays) {
+    walk->stack[0].child = root;
+    walk->stack[0].rays = rays;
+    walk->depth = rays != 0u ? 1u : 0u;
+    walk->answered = 0u;
+}
+
+/* Visits the node or leaf on top of the stack. */
+static inline void step_walk(const TraceScene* scene, Stream* s, const StreamClass* c,
+                             StreamWalk* walk) {
+    const StreamEntry entry = walk->stack[--walk->depth];
+    const uint left = entry.rays & ~walk->answered;
+    if (left == 0u)
         return;
-    StreamEntry top = {0, 0u};
-    uint most = 0u;
-    do {
-        const uint i = first_lane8(lanes);
-        lanes = without_lane8(lanes, i);
-        StreamEntry entry;
-        entry.child = node->child[i];
-        fetch_child(scene, entry.child);
-        entry.rays = ((const uint*)&found.rays)[i];
-        const uint count = popcount(entry.rays);
-        const bool more = count > most;
-        if (most != 0u)
-            stack->entry[stack->depth++] = more ? top : entry;
-        top = more ? entry : top;
-        most = more ? count : most;
-    } while (lanes != 0ul);
-    stack->entry[stack->depth++] = top;
-}
-#else
-/* The nearest child is visited first. */
-static inline void push_children(const TraceScene* scene, global const Wide8Node* node,
-                                 StreamChildren found, StreamStack* stack) {
-    ulong lanes = lane_mask8(found.rays != 0);
-    const uint base = stack->depth;
-    while (lanes != 0ul) {
-        const uint lane = first_lane8(lanes);
-        lanes = without_lane8(lanes, lane);
-        const float near = ((const float*)&found.near)[lane];
-        uint i = stack->depth++;
-        for (; i > base && stack->near[i - 1u] < near; --i) {
-            stack->near[i] = stack->near[i - 1u];
-            stack->entry[i] = stack->entry[i - 1u];
-        }
-        stack->near[i] = near;
-        fetch_child(scene, node->child[lane]);
-        stack->entry[i].child = node->child[lane];
-        stack->entry[i].rays = ((const uint*)&found.rays)[lane];
+    if (entry.child < 0) {
+        walk->answered |= test_leaf_of_stream(scene, s, c, entry.child, left);
+        return;
     }
-}
-#endif
-
-/* Returns the rays whose query is answered. */
-static inline uint test_leaf_of_rays(const TraceScene* scene, StreamRay* stream, int leaf,
-                                     uint rays) {
-    uint answered = 0u;
-    for (; rays != 0u; rays &= rays - 1u) {
-        const uint k = first_ray(rays);
-        if (test_leaf_of_stream(scene, stream + k, leaf))
-            answered |= 1u << k;
-    }
-    return answered;
+    global const Wide8Node* node = (global const Wide8Node*)scene->nodes + entry.child;
+    const StreamChildren found = enter_children8(node, s, c, left);
+    const uint before = walk->depth;
+    walk->depth = push_children8(node, &found, walk->stack, before);
+    for (uint i = before; i < walk->depth; ++i)
+        fetch_child(scene, walk->stack[i].child);
 }
 
-/* Returns the rays whose query is answered. */
-static inline uint traverse_stream(const TraceScene* scene, StreamRay* stream, int root, uint rays,
-                                   uint octant) {
-    global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
-    uint answered = 0u;
-    StreamStack stack;
-    stack.entry[0].child = root;
-    stack.entry[0].rays = rays;
-    stack.near[0] = 0.0f;
-    stack.depth = 1u;
-    while (stack.depth != 0u) {
-        const StreamEntry entry = stack.entry[--stack.depth];
-        const uint left = entry.rays & ~answered;
-        if (left == 0u)
-            continue;
-        if (entry.child >= 0) {
-            global const Wide8Node* node = nodes + entry.child;
-            push_children(scene, node, enter_children8(node, stream, left, octant), &stack);
-        } else {
-            answered |= test_leaf_of_rays(scene, stream, entry.child, left);
-            if (answered == rays)
-                return answered;
-        }
+/* `s` and `walk`: one for each chunk. */
+static inline void traverse_stream(const TraceScene* scene, Stream* s, const StreamClass* c,
+                                   StreamWalk* walk) {
+    uint i = 0u;
+    while ((walk[0].depth | walk[1].depth) != 0u) {
+        i = walk[i ^ 1u].depth != 0u ? i ^ 1u : i;
+        step_walk(scene, s + i, c, walk + i);
     }
-    return answered;
 }
 
 #endif

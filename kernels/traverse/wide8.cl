@@ -73,7 +73,7 @@ static inline int choose_child(global const Wide8Node* node, ulong lanes, float8
 
 static inline bool traverse_lower(const TraceScene* scene, TraceQuery* query, int root) {
     global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
-    StreamRay ray;
+    BlockRay ray;
     ray.query = *query;
     permute_origin(&ray);
     ChildStack stack;
@@ -87,7 +87,7 @@ static inline bool traverse_lower(const TraceScene* scene, TraceQuery* query, in
             node = lanes != 0ul ? choose_child(nodes + node, lanes, near, &stack)
                                 : pop_child(&stack, ray.query.ray.t_max);
         } else {
-            answered = test_leaf_of_stream(scene, &ray, node);
+            answered = test_leaf_of_blocks(scene, &ray, node);
             node = pop_child(&stack, ray.query.ray.t_max);
         }
     }
