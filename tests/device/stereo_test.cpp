@@ -51,11 +51,13 @@ std::vector<std::string> render_both(const compute::Device& left, const compute:
     std::vector<std::string> hashes;
     for (std::uint32_t frame = 0; frame < 3; ++frame) {
         one.start(frame, camera_of(display, Eye::left, frame));
-        if (!at_once)
+        if (!at_once) {
             EXPECT_EQ(one.finish().frame, frame);
+        }
         two.start(frame, camera_of(display, Eye::right, frame));
-        if (at_once)
+        if (at_once) {
             EXPECT_EQ(one.finish().frame, frame);
+        }
         const render::FrameReport report = two.finish();
         EXPECT_EQ(report.frame, frame);
         EXPECT_GT(report.total_rays(), 60u * 74u);
