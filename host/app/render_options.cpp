@@ -110,6 +110,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.seed = options.seed;
     engine.variant = options.variant;
     engine.weier = engine_options(options.weier);
+    engine.lowres_scale = options.weier.lowres_scale;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);

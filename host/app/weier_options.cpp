@@ -64,6 +64,9 @@ void WeierOptions::add_to(CLI::App& command) {
     number("--footprint-samples", engine.filter_samples, "Of a reprojected footprint, 0..64");
     number("--post-window", engine.filter_window, "Pixels that the post-processor looks around");
     number("--post-tries", engine.filter_tries, "Pixels that it tries");
+    command.add_option("--lowres-scale", lowres_scale, "Part of the pixels along each axis, 0..1")
+        ->capture_default_str()
+        ->group("Method lowres");
     command.add_flag("--no-post", no_post, "No post-processor for area lights and ao")
         ->group("Method weier");
     command.add_flag("--resample-new", engine.resample_new, "Sample all that enters the view")

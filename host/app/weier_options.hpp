@@ -1,4 +1,4 @@
-/// The options of method weier (docs/methods/weier.md).
+/// The options of the methods weier (docs/methods/weier.md) and lowres.
 #pragma once
 
 #include <string>
@@ -15,6 +15,7 @@ struct WeierOptions {
     std::string frc = "medium", support; // WxH; empty: as in the paper
     stage::WeierOptions engine;          // but for the two above
     bool no_post = false;
+    float lowres_scale = 0.46f; // 0..1; by default about as many samples as the medium region
 
     void add_to(CLI::App& command);
 };

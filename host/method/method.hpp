@@ -16,6 +16,7 @@ namespace macula::method {
 struct Options {
     frame::LightMode lights = frame::LightMode::point;
     stage::WeierOptions weier;
+    float lowres_scale = 0.46f; // of method lowres: part of the pixels along each axis, 0..1
 };
 
 struct Method {
@@ -30,6 +31,7 @@ const Method& find_method(std::string_view name);
 
 // host/method/<name>.cpp
 frame::Graph make_full(const stage::Kit& kit, const Options& options);
+frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
 // The images that every method with a slot-ordered G-buffer can deliver besides its own colour:

@@ -104,7 +104,7 @@ struct Renderer::State {
           graph(method::find_method(o.method).make(
               {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
                settings.ambient_occlusion_samples, has_highlights(scene), ray_totals},
-              {o.lights, o.weier})),
+              {o.lights, o.weier, o.lowres_scale})),
           timings(o.warm_up_frames) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.insert("colour");

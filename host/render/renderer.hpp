@@ -41,7 +41,8 @@ struct Options {
     std::optional<frame::Tangents> tangents;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
-    stage::WeierOptions weier; // of method "weier"
+    stage::WeierOptions weier;  // of method "weier"
+    float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     frame::GeometryOptions geometry;
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

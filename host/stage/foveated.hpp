@@ -21,7 +21,7 @@ struct WeierOptions {
     std::uint32_t support_width = 0, support_height = 0;
     // Of section 3.3, which states no values. Depth: part of it, above 0. Luminance: 0..1, 1: off.
     // Edge: a cosine, 0..1. Stretch: pixels now for a pixel then, above 1.
-    float depth_threshold = 0.08f, luminance_threshold = 0.3f, edge_threshold = 0.05f,
+    float depth_threshold = 0.1f, luminance_threshold = 0.45f, edge_threshold = 0.05f,
           stretch_threshold = 2.0f;
     bool resample_new = false; // sample what enters the view rather than fill it
     // Of section 3.4. Depth: part of it, above 0. Weights: 0 < k_min <= k_max <= 1.

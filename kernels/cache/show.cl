@@ -93,7 +93,7 @@ kernel void draw_overlay(global const FrameParams* restrict frame,
             (sampling == 2u ? (float4)(1.0f, 0.0f, 0.0f, 1.0f) : (float4)(0.0f, 1.0f, 0.0f, 1.0f)) -
                 shown,
             (float4)(0.4f), shown);
-    const float pixel_degrees = frame->pixel_spread * (180.0f / MACULA_PI);
+    const float pixel_degrees = frame->pixel_spread * MACULA_DEGREES_OF_RADIAN;
     if (on_circle(eccentricity, r0, pixel_degrees) || on_circle(eccentricity, r1, pixel_degrees))
         shown = (float4)(1.0f);
     colour[pixel] = shown;

@@ -7,15 +7,18 @@
 
 MACULA_SHARED_BEGIN
 
+#define MACULA_DEGREES_OF_RADIAN 57.2957795f
+#define MACULA_HALF_TURN_OF_DEGREE 0.00555555556f
+
 /* Eccentricity in degrees of a cosine between a direction and the gaze. */
 MACULA_ALWAYS_INLINE float eccentricity_of_cosine(float cosine) {
-    return m_acos(clamped(cosine, -1.0f, 1.0f)) * (180.0f / MACULA_PI);
+    return m_acos(clamped(cosine, -1.0f, 1.0f)) * MACULA_DEGREES_OF_RADIAN;
 }
 
 /* Cosine of an eccentricity; below every cosine from 180 degrees on. */
 MACULA_ALWAYS_INLINE float cosine_of_eccentricity(float degrees) {
     float cosine;
-    m_sin_cos_pi(m_min(degrees, 180.0f) * (1.0f / 180.0f), &cosine);
+    m_sin_cos_pi(m_min(degrees, 180.0f) * MACULA_HALF_TURN_OF_DEGREE, &cosine);
     return degrees >= 180.0f ? -2.0f : cosine;
 }
 

@@ -8,6 +8,7 @@
 #include "shared/camera.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/weier.h"
 
 #define MACULA_STRUCT_LIST(STRUCT, MEMBER)                                                         \
     STRUCT(RayBlock)                                                                               \
@@ -76,6 +77,11 @@
     MEMBER(FrameParams, width)                                                                     \
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
-    MEMBER(FrameParams, ambient)
+    MEMBER(FrameParams, ambient)                                                                   \
+    STRUCT(WeierParams)                                                                            \
+    MEMBER(WeierParams, p_min)                                                                     \
+    MEMBER(WeierParams, support_width)                                                             \
+    MEMBER(WeierParams, depth_bits)                                                                \
+    MEMBER(WeierParams, filter_tries)
 
 #endif

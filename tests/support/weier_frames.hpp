@@ -24,6 +24,7 @@ struct WeierSetup {
     std::set<std::string> outputs;
     stage::WeierOptions weier;
     std::string method = "weier";
+    float lowres_scale = 0.46f;
 };
 
 class WeierFrames {
@@ -37,7 +38,7 @@ class WeierFrames {
           graph_(method::find_method(setup.method)
                      .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
                             setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_},
-                           {setup.lights, setup.weier})) {
+                           {setup.lights, setup.weier, setup.lowres_scale})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
         graph_.compile(device, outputs);

@@ -1,0 +1,37 @@
+/* Primary rays through the middles of a coarser grid of pixels that covers the view. */
+#include "lib/camera.h"
+#include "shared/ray.h"
+#include "shared/surface.h"
+
+/* One work-item a slot of the order of lib/camera.h for width x height samples; the launch covers
+ * slot_count(width, height), which is the ray count. pixels: index of the sample. */
+kernel void generate_grid_rays(global const FrameParams* restrict frame, uint width, uint height,
+                               uint sample, global RayBlock* restrict rays,
+                               global uint* restrict pixels, global uint* restrict ray_count,
+                               global ulong* restrict ray_totals, uint ray_class) {
+    const uint slot = (uint)get_global_id(0);
+    uint x, y;
+    pixel_of_slot(slot, width, &x, &y);
+    const bool inside = x < width && y < height;
+    const uint pixel = y * width + x;
+    float dx, dy;
+    subpixel_offset(random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid, &dx,
+                    &dy);
+    const float3 direction =
+        camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
+    global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
+    const uint lane = slot % MACULA_RAY_BLOCK;
+    block->origin_x[lane] = frame->camera.origin[0];
+    block->origin_y[lane] = frame->camera.origin[1];
+    block->origin_z[lane] = frame->camera.origin[2];
+    block->t_min[lane] = 0.0f;
+    block->direction_x[lane] = direction.x;
+    block->direction_y[lane] = direction.y;
+    block->direction_z[lane] = direction.z;
+    block->t_max[lane] = inside ? MACULA_BACKGROUND_DEPTH : -1.0f;
+    pixels[slot] = inside ? pixel : MACULA_NO_PIXEL;
+    if (slot == 0u) {
+        *ray_count = (uint)get_global_size(0);
+        ray_totals[ray_class] += width * height;
+    }
+}
