@@ -12,11 +12,13 @@ typedef struct QueuedPacket {
     float16 dx, dy, dz, t_max;
 } QueuedPacket;
 
-/* The least and greatest values of the lanes. */
+/* The least and greatest values of the lanes, of the rays as they are or as seen from their other
+ * ends (see bound_from_ends). */
 typedef struct PacketBounds {
     float o_lo[3], o_hi[3]; /* origin */
     float d_lo[3], d_hi[3]; /* bounded direction */
     float t_min, t_max;
+    float reach; /* largest origin component, of either end, in size */
 } PacketBounds;
 
 /* TraceRay, sixteen times; vectors are [axis]. t_max is the bound for culling: -1 in a lane that is
@@ -31,6 +33,9 @@ typedef struct Packet {
     uint axes;   /* bit k: some lane has kz = k */
     uint octant; /* of all lanes; an axis with directions of both signs has bit 0 */
     bool mixed;  /* the lanes have several octants */
+    bool turned; /* the bounds are those of the rays as seen from their other ends, */
+    uint frustum_octant; /* and this is the octant of the rays as seen so */
+    float margin; /* more than what lanes pad planes by, as a distance */
 } Packet;
 
 /* Asks the cache for a block of the queue: the next one that this work-item, or the one after it on
@@ -79,16 +84,55 @@ static inline PacketBounds bound_packet(const float16 o[3], const float16 d[3], 
     }
     b.t_min = lo[6];
     b.t_max = hi[6];
+    b.reach = 0x1p-20f;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        b.reach = m_max(b.reach, m_max(-b.o_lo[axis], b.o_hi[axis]));
     return b;
 }
 
-static inline void classify_octants(Packet* p, const PacketBounds* b) {
-    p->octant = 0u;
-    p->mixed = false;
+#if MACULA_ANY_HIT
+static inline float origin_spread(const PacketBounds* b) {
+    return (b->o_hi[0] - b->o_lo[0]) + (b->o_hi[1] - b->o_lo[1]) + (b->o_hi[2] - b->o_lo[2]);
+}
+
+/* Keeps a bound of a direction component away from 0, on the side where the interval grows. */
+static inline float grown(float bound, float towards) {
+    return fabs(bound) < MACULA_MIN_DIRECTION ? towards : bound;
+}
+
+/* Rays towards a light have several origins and, nearly, one end: seen from there, with directions
+ * as long as the rays, so that all begin at 1, their bounds are tighter. Returns whether *b was
+ * replaced. */
+static inline bool bound_from_ends(const float16 o[3], const float16 d[3], float16 t_max,
+                                   PacketBounds* b) {
+    if (!(b->t_max <= MACULA_EMPTY))
+        return false;
+    const float16 length = t_max < 0.0f ? (float16)(b->t_max) : t_max;
+    const float16 back[3] = {-d[0] * length, -d[1] * length, -d[2] * length};
+    const float16 end[3] = {o[0] - back[0], o[1] - back[1], o[2] - back[2]};
+    PacketBounds ends = bound_packet(end, back, (float16)(0.0f), (float16)(1.0f));
+    ends.reach = m_max(ends.reach, b->reach);
+    if (!(fma(ends.reach - b->reach, 0x1p-15f, origin_spread(&ends)) < origin_spread(b)))
+        return false;
     for (uint axis = 0u; axis < 3u; ++axis) {
-        p->octant |= b->d_hi[axis] < 0.0f ? 1u << axis : 0u;
-        p->mixed |= b->d_lo[axis] < 0.0f && b->d_hi[axis] > 0.0f;
+        ends.d_lo[axis] = grown(ends.d_lo[axis], -MACULA_MIN_DIRECTION);
+        ends.d_hi[axis] = grown(ends.d_hi[axis], MACULA_MIN_DIRECTION);
     }
+    *b = ends;
+    return true;
+}
+#endif
+
+static inline uint octant_of(const PacketBounds* b) {
+    return (b->d_hi[0] < 0.0f ? 1u : 0u) | (b->d_hi[1] < 0.0f ? 2u : 0u) |
+           (b->d_hi[2] < 0.0f ? 4u : 0u);
+}
+
+static inline bool has_both_signs(const PacketBounds* b) {
+    bool both = false;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        both |= b->d_lo[axis] < 0.0f && b->d_hi[axis] > 0.0f;
+    return both;
 }
 
 /* The dominant axis that the bounds show all lanes to have, or 3. */
@@ -143,9 +187,17 @@ static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
         p->q[axis] = r * MACULA_FAR_SCALE;
         p->f[axis] = fma(fabs(r), margin, -at_plane_0) * MACULA_FAR_SCALE;
     }
-    const PacketBounds b = bound_packet(p->o, d, q->t_min, q->t_max);
-    classify_octants(p, &b);
+    PacketBounds b = bound_packet(p->o, d, q->t_min, q->t_max);
+    p->octant = octant_of(&b);
+    p->mixed = has_both_signs(&b);
     shear_packet(p, d, &b);
+    p->margin = 2.0f * MACULA_RAY_MARGIN * b.reach;
+    p->turned = false;
+#if MACULA_ANY_HIT
+    p->turned = bound_from_ends(p->o, d, q->t_max, &b);
+    p->mixed |= has_both_signs(&b);
+#endif
+    p->frustum_octant = octant_of(&b);
     return b;
 }
 

@@ -56,16 +56,9 @@ static inline void bound_axis(Frustum* f, uint axis, const PacketBounds* b, floa
     }
 }
 
-static inline float reach_of(const PacketBounds* b) {
-    float reach = 0x1p-20f;
-    for (uint axis = 0u; axis < 3u; ++axis)
-        reach = m_max(reach, m_max(-b->o_lo[axis], b->o_hi[axis]));
-    return reach;
-}
-
 static inline Frustum make_frustum(const PacketBounds* b) {
     Frustum f;
-    f.margin = MACULA_FRUSTUM_MARGIN * reach_of(b);
+    f.margin = MACULA_FRUSTUM_MARGIN * b->reach;
     for (uint axis = 0u; axis < 3u; ++axis)
         bound_axis(&f, axis, b, m_divide(1.0f, b->d_lo[axis]), m_divide(1.0f, b->d_hi[axis]));
     f.t_min = b->t_min;

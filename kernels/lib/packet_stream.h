@@ -17,32 +17,49 @@ typedef struct PacketStream {
 } PacketStream;
 
 /* A child to visit is child slot % 8 of node slot / 8. */
-typedef struct PacketStreamStack {
-    uint slot[MACULA_WIDE_STACK];
-    uint packets[MACULA_WIDE_STACK];
-    float near[MACULA_WIDE_STACK];
-} PacketStreamStack;
+typedef struct PacketEntry {
+    uint slot;
+    uint packets;
+} PacketEntry;
+
+/* Each level leaves at most seven siblings behind; a push writes all eight children. */
+#define MACULA_PACKET_STACK (MACULA_WIDE_STACK + 8)
 
 static inline uint first_bit(uint mask) {
-    return 31u - (uint)clz(mask & (~mask + 1u));
+    return (uint)popcount(~mask & (mask - 1u));
 }
 
-static inline void push_packets(PacketStreamStack* stack, uint base, uint i, uint slot,
-                                uint packets, float near) {
-    for (; i > base && stack->near[i - 1u] < near; --i) {
-        stack->near[i] = stack->near[i - 1u];
-        stack->slot[i] = stack->slot[i - 1u];
-        stack->packets[i] = stack->packets[i - 1u];
-    }
-    stack->near[i] = near;
-    stack->slot[i] = slot;
-    stack->packets[i] = packets;
+static inline void put_packets(PacketEntry* stack, int place, uint slot, int packets) {
+    stack[place].slot = slot;
+    stack[place].packets = (uint)packets;
+}
+
+/* Puts the children that are entered on a stack of `depth` entries, the nearest on top, without a
+ * branch that waits for the tests: each at the number of those that come after it, so that those
+ * which no packet enters end up above the top. Returns how many entries there are now. */
+static inline uint push_packets(PacketEntry* stack, uint depth, uint index, int8 found,
+                                float8 nearest) {
+    const int8 key = (found != 0 ? as_int8(nearest) & ~7 : (int8)(-8)) | MACULA_LANES8;
+    const int8 place = -(((int8)(key.s0) > key) + ((int8)(key.s1) > key) + ((int8)(key.s2) > key) +
+                         ((int8)(key.s3) > key) + ((int8)(key.s4) > key) + ((int8)(key.s5) > key) +
+                         ((int8)(key.s6) > key) + ((int8)(key.s7) > key));
+    const uint slot = index * 8u;
+    stack += depth;
+    put_packets(stack, place.s0, slot, found.s0);
+    put_packets(stack, place.s1, slot + 1u, found.s1);
+    put_packets(stack, place.s2, slot + 2u, found.s2);
+    put_packets(stack, place.s3, slot + 3u, found.s3);
+    put_packets(stack, place.s4, slot + 4u, found.s4);
+    put_packets(stack, place.s5, slot + 5u, found.s5);
+    put_packets(stack, place.s6, slot + 6u, found.s6);
+    put_packets(stack, place.s7, slot + 7u, found.s7);
+    return depth + ((uint)popcount(lane_mask8(found != 0)) >> 3);
 }
 
 /* Tests the packets' frusta against a node's children and puts those that are entered on the stack
  * of `depth` entries; returns how many there are now. */
 static inline uint visit_node(const TraceScene* scene, const PacketStream* stream, uint index,
-                              uint packets, uint octant, bool mixed, PacketStreamStack* stack,
+                              uint packets, uint octant, bool mixed, PacketEntry* stack,
                               uint depth) {
     global const Wide8Node* node = (global const Wide8Node*)scene->nodes + index;
     const WidePlanes planes = load_planes(node, octant);
@@ -56,15 +73,10 @@ static inline uint visit_node(const TraceScene* scene, const PacketStream* strea
         found |= enters & (int8)((int)(1u << k));
         nearest = enters ? m_min8(nearest, near) : nearest;
     } while (packets != 0u);
-    const uint base = depth;
-    for (ulong lanes = lane_mask8(found != 0); lanes != 0ul; ++depth) {
-        const uint i = first_lane8(lanes);
-        lanes = without_lane8(lanes, i);
-        fetch_child_single(scene, node->child[i]);
-        push_packets(stack, base, depth, index * 8u + i, ((const uint*)&found)[i],
-                     ((const float*)&nearest)[i]);
-    }
-    return depth;
+    const uint end = push_packets(stack, depth, index, found, nearest);
+    for (; depth < end; ++depth)
+        fetch_child_single(scene, node->child[stack[depth].slot & 7u]);
+    return end;
 }
 
 /* The packets with a lane that may enter a box. */
@@ -87,7 +99,7 @@ static inline void test_leaf_of_packets(const TraceScene* scene, const PacketIns
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
         if (test_leaf16(scene, instance, stream->packet + k, stream->best + k, leaf))
-            stream->frustum[k].t_max = bound_t_max(stream->packet + k);
+            bound_t_max(stream->frustum + k, stream->packet + k);
     }
 }
 
@@ -96,13 +108,13 @@ static inline void test_leaf_of_packets(const TraceScene* scene, const PacketIns
  * tests: a mask of them would make every step wait for the hits of the last one. */
 static inline uint next_node(const TraceScene* scene, const PacketInstance* instance,
                              PacketStream* stream, uint octant, bool mixed,
-                             const PacketStreamStack* stack, uint* depth, uint* index) {
+                             const PacketEntry* stack, uint* depth, uint* index) {
     global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     while (*depth != 0u) {
         const uint top = --(*depth);
-        const uint packets = stack->packets[top];
-        global const Wide8Node* node = nodes + (stack->slot[top] >> 3);
-        const uint i = stack->slot[top] & 7u;
+        const uint packets = stack[top].packets;
+        global const Wide8Node* node = nodes + (stack[top].slot >> 3);
+        const uint i = stack[top].slot & 7u;
         const int child = node->child[i];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;
         const uint left =
@@ -118,14 +130,15 @@ static inline uint next_node(const TraceScene* scene, const PacketInstance* inst
     return 0u;
 }
 
+/* `frustum_octant`: that of the frusta, the opposite one where they are those of the rays' ends. */
 static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
                                     PacketStream* stream, int root, uint packets, uint octant,
-                                    bool mixed) {
-    PacketStreamStack stack;
+                                    uint frustum_octant, bool mixed) {
+    PacketEntry stack[MACULA_PACKET_STACK];
     uint depth = 0u, index = (uint)root;
     while (packets != 0u) {
-        depth = visit_node(scene, stream, index, packets, octant, mixed, &stack, depth);
-        packets = next_node(scene, instance, stream, octant, mixed, &stack, &depth, &index);
+        depth = visit_node(scene, stream, index, packets, frustum_octant, mixed, stack, depth);
+        packets = next_node(scene, instance, stream, octant, mixed, stack, &depth, &index);
     }
 }
 

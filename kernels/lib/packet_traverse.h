@@ -46,14 +46,14 @@ static inline bool may_enter_mixed(const Packet* p, global const Wide8Node* node
 
 static inline uint push_children16(const TraceScene* scene, const Packet* p, const Frustum* f,
                                    global const Wide8Node* node, WideStack* stack, uint depth) {
-    const WidePlanes planes = load_planes(node, p->octant);
+    const WidePlanes planes = load_planes(node, p->frustum_octant);
     float8 near;
     ulong lanes = lane_mask8(enter_frustum8(f, p->mixed, &planes, &near));
     const uint base = depth;
     while (lanes != 0ul) {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
-        const BoxPlanes box = box_planes(node, i, p->octant, f->margin);
+        const BoxPlanes box = box_planes(node, i, p->octant, p->margin);
         if (p->mixed ? may_enter_mixed(p, node, i) : may_enter(p, f->t_min, &box)) {
             fetch_child_single(scene, node->child[i]);
             depth = push_child(stack, base, depth, node->child[i], ((const float*)&near)[i]);
@@ -62,9 +62,10 @@ static inline uint push_children16(const TraceScene* scene, const Packet* p, con
     return depth;
 }
 
-/* The bound for culling after hits; negative when all lanes are done. */
-static inline float bound_t_max(const Packet* p) {
-    return greatest_lane16(p->t_max);
+/* Tightens the bound for culling after hits; negative when all lanes are done. */
+static inline void bound_t_max(Frustum* f, const Packet* p) {
+    const float t_max = greatest_lane16(p->t_max);
+    f->t_max = MACULA_ANY_HIT && t_max >= 0.0f ? f->t_max : t_max;
 }
 
 static inline void traverse_packet(const TraceScene* scene, const PacketInstance* instance,
@@ -83,7 +84,7 @@ static inline void traverse_packet(const TraceScene* scene, const PacketInstance
         if (node >= 0) {
             depth = push_children16(scene, p, &f, nodes + node, &stack, depth);
         } else if (test_leaf16(scene, instance, p, best, node)) {
-            f.t_max = bound_t_max(p);
+            bound_t_max(&f, p);
             if (f.t_max < 0.0f)
                 return;
         }

@@ -56,6 +56,7 @@ static inline float8 least_lanes16(const float16 v[8]) {
 #endif
 
 /* The number of each lane. */
+#define MACULA_LANES8 ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
 #define MACULA_LANES16 ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
 #endif

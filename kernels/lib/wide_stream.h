@@ -36,8 +36,6 @@ typedef struct StreamChildren {
     int8 key;
 } StreamChildren;
 
-#define MACULA_LANES8 ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
-
 /* The child that most rays of an any-hit query enter comes first, else the one that is entered
  * first by some ray. */
 static inline StreamChildren enter_children8(global const Wide8Node* node, const Stream* s,

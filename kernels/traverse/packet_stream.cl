@@ -24,7 +24,7 @@ static inline bool prepare_packet(const TraceScene* scene, global const RayBlock
         trace_coherent(scene, &q, p, &bounds, best);
 #else
         stream->frustum[k] = make_frustum(&bounds);
-        stream->margin = m_max(stream->margin, stream->frustum[k].margin);
+        stream->margin = m_max(stream->margin, p->margin);
         stream->wide |= spread > MACULA_WIDE_SPREAD ? 1u << k : 0u;
         return true;
 #endif
@@ -42,22 +42,23 @@ kernel void trace(TRACE_ARGUMENTS) {
     PacketStream stream;
     stream.margin = 0.0f;
     stream.wide = 0u;
-    /* The octants, and again those of packets with directions of both signs along some axis. */
-    uint of_octant[16] = {0u};
+    /* The octants, those of packets with directions of both signs along some axis, and again both
+     * of packets that are bound from their ends. */
+    uint of_octant[32] = {0u};
     uint packets = 0u;
     for (uint k = 0u; k < MACULA_PACKETS && first + k * 16u < count; ++k) {
         fetch_block(rays + (first / 16u + MACULA_PACKETS + k));
         if (prepare_packet(&scene, rays, first + k * 16u, count, results, &stream, k)) {
             const Packet* p = stream.packet + k;
-            of_octant[p->octant + (p->mixed ? 8u : 0u)] |= 1u << k;
+            of_octant[p->frustum_octant + (p->mixed ? 8u : 0u) + (p->turned ? 16u : 0u)] |= 1u << k;
             packets |= 1u << k;
         }
     }
     const PacketInstance instance = instance_of(instances);
-    for (uint i = 0u; i < 16u; ++i)
+    for (uint i = 0u; i < (MACULA_ANY_HIT ? 32u : 16u); ++i)
         if (of_octant[i] != 0u)
-            traverse_packets(&scene, &instance, &stream, instances[0].root, of_octant[i], i & 7u,
-                             i >= 8u);
+            traverse_packets(&scene, &instance, &stream, instances[0].root, of_octant[i],
+                             (i & 7u) ^ (i >= 16u ? 7u : 0u), i & 7u, (i & 8u) != 0u);
     for (; packets != 0u; packets &= packets - 1u) {
         const uint k = first_bit(packets);
         store_packet(results, first + k * 16u, count, stream.best + k);
