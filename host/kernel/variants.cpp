@@ -14,8 +14,10 @@ constexpr Parameter work_group(std::uint32_t standard) {
 
 constexpr std::array kOneRay = {work_group(64)};
 constexpr std::array kOnePacket = {work_group(1)};
+// PoCL hands out work-groups by the hundred while there are more than a thousand, and then some
+// cores have nothing left to do: fewer, larger groups.
 constexpr std::array kPacketStream = {
-    work_group(1),
+    work_group(4),
     Parameter{"rays_per_item", 32, 512, 512, true, ParameterUse::literal,
               "rays that a work-item takes through the tree together"},
 };
@@ -38,8 +40,8 @@ constexpr std::uint32_t kBinaryStack = 2 * (MACULA_MAX_DEPTH + 1) * 4; // and th
 constexpr std::uint32_t kWide8Stack = (7 * MACULA_MAX_DEPTH + 8) * 8 + kBinaryStack / 2;
 constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 2;
 
-// A packet's rays and results, in bytes: about 27 vectors of 64.
-constexpr std::uint32_t kPacket = 27 * 64;
+// A packet's rays, frustum and results, in bytes: about 22 vectors of 64.
+constexpr std::uint32_t kPacket = 22 * 64;
 // A ray of a stream, among its chunks and sorted.
 constexpr std::uint32_t kStreamRay = 68;
 constexpr std::uint32_t kSortedRay = 35;

@@ -24,18 +24,18 @@ typedef struct PacketBounds {
 /* TraceRay, sixteen times; vectors are [axis]. t_max is the bound for culling: -1 in a lane that is
  * inactive, that misses the instance being traversed or whose any-hit query is answered. */
 typedef struct Packet {
-    float16 o[3];
     float16 r[3], n[3]; /* near planes */
-    float16 q[3], f[3]; /* far planes */
+    float16 t_max;
+    float16 t_min;
+    float16 o[3];
     float16 sx, sy, sz;
-    float16 t_min, t_max;
-    int16 kz;    /* of no meaning when all lanes have the same one */
-    uint axes;   /* bit k: some lane has kz = k */
-    uint octant; /* of all lanes; an axis with directions of both signs has bit 0 */
-    bool mixed;  /* the lanes have several octants */
-    bool turned; /* the bounds are those of the rays as seen from their other ends, */
+    int16 kz;            /* of no meaning when all lanes have the same one */
+    uint axes;           /* bit k: some lane has kz = k */
+    uint octant;         /* of all lanes; an axis with directions of both signs has bit 0 */
+    bool mixed;          /* the lanes have several octants */
+    bool turned;         /* the bounds are those of the rays as seen from their other ends, */
     uint frustum_octant; /* and this is the octant of the rays as seen so */
-    float margin; /* more than what lanes pad planes by, as a distance */
+    float margin;        /* more than what lanes pad planes by, as a distance */
 } Packet;
 
 /* Asks the cache for a block of the queue: the next one that this work-item, or the one after it on
@@ -176,16 +176,11 @@ static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
     p->o[2] = q->oz;
     p->t_min = q->t_min;
     p->t_max = q->t_max;
-    const float16 reach =
-        m_max16(m_max16(fabs(q->ox), fabs(q->oy)), m_max16(fabs(q->oz), (float16)(0x1p-20f)));
-    const float16 margin = MACULA_RAY_MARGIN * reach;
+    const float16 margin = MACULA_RAY_MARGIN * reach16(q->ox, q->oy, q->oz);
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float16 r = m_divide16((float16)(1.0f), d[axis]);
-        const float16 at_plane_0 = p->o[axis] * r;
         p->r[axis] = r;
-        p->n[axis] = fma(fabs(r), -margin, -at_plane_0);
-        p->q[axis] = r * MACULA_FAR_SCALE;
-        p->f[axis] = fma(fabs(r), margin, -at_plane_0) * MACULA_FAR_SCALE;
+        p->n[axis] = fma(fabs(r), -margin, -(p->o[axis] * r));
     }
     PacketBounds b = bound_packet(p->o, d, q->t_min, q->t_max);
     p->octant = octant_of(&b);
@@ -204,12 +199,14 @@ static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
 /* box_interval, each lane picking its planes by its own octant. */
 static inline void box_interval16(const Packet* p, const float lo[3], const float hi[3],
                                   float16* near, float16* far) {
+    const float16 margin = MACULA_RAY_MARGIN * reach16(p->o[0], p->o[1], p->o[2]);
     float16 n[3], f[3];
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const float16 below = lo[axis], above = hi[axis];
-        const int16 negative = p->r[axis] < 0.0f;
-        n[axis] = fma(negative ? above : below, p->r[axis], p->n[axis]);
-        f[axis] = fma(negative ? below : above, p->q[axis], p->f[axis]);
+        const float16 below = lo[axis], above = hi[axis], r = p->r[axis];
+        const int16 negative = r < 0.0f;
+        const float16 far_offset = fma(fabs(r), margin, -(p->o[axis] * r)) * MACULA_FAR_SCALE;
+        n[axis] = fma(negative ? above : below, r, p->n[axis]);
+        f[axis] = fma(negative ? below : above, r * MACULA_FAR_SCALE, far_offset);
     }
     *near = m_max16(m_max16(n[0], n[1]), m_max16(n[2], p->t_min));
     *far = m_min16(m_min16(f[0], f[1]), f[2]);

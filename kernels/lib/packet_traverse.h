@@ -39,9 +39,17 @@ static inline bool may_enter(const Packet* p, float t_min, const BoxPlanes* box)
 
 /* The same for lanes of several octants. */
 static inline bool may_enter_mixed(const Packet* p, global const Wide8Node* node, uint i) {
-    const float lo[3] = {node->plane[0][0][i], node->plane[1][0][i], node->plane[2][0][i]};
-    const float hi[3] = {node->plane[0][1][i], node->plane[1][1][i], node->plane[2][1][i]};
-    return any_lane16(enter_box16(p, lo, hi));
+    const float pad = 2.0f * p->margin;
+    float16 near = p->t_min, far = p->t_max;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        const float lo = node->plane[axis][0][i], hi = node->plane[axis][1][i];
+        const int16 negative = p->r[axis] < 0.0f;
+        const float16 entry = negative ? (float16)(hi) : (float16)(lo);
+        const float16 exit = negative ? (float16)(lo - pad) : (float16)(hi + pad);
+        near = m_max16(near, fma(entry, p->r[axis], p->n[axis]));
+        far = m_min16(far, fma(exit, p->r[axis], p->n[axis]) * MACULA_FRUSTUM_GROW);
+    }
+    return any_lane16(near <= far);
 }
 
 static inline uint push_children16(const TraceScene* scene, const Packet* p, const Frustum* f,
