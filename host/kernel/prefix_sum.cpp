@@ -5,7 +5,8 @@ namespace {
 
 /// MACULA_WORK_GROUP of kernels/scan/scan.cl, and its ITEMS.
 constexpr std::uint32_t kWorkGroup = 128;
-constexpr std::uint32_t kTile = kWorkGroup * 16;
+constexpr std::uint32_t kItems = 16;
+constexpr std::uint32_t kTile = kWorkGroup * kItems;
 
 VariantKey scan_key() {
     return VariantKey("scan/scan").parameter("work_group", kWorkGroup);
@@ -82,7 +83,7 @@ void Compaction::run(const compute::Buffer& flags, const compute::Buffer& count,
     sum_.exclusive(flags, count, offsets_, total, stage);
     const auto capacity = static_cast<std::uint32_t>(sum_.capacity());
     scatter_.set(flags, offsets_, count, capacity, indices)
-        .launch(stage, {compute::Range::cover(capacity, kWorkGroup)}, {kWorkGroup});
+        .launch(stage, {compute::Range::cover(capacity, kTile) / kItems}, {kWorkGroup});
 }
 
 } // namespace macula::kernel

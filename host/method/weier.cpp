@@ -62,12 +62,10 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     if (light.filtered)
         sampling.push_back(stage::filter_light(foveated, light.fresh, light.image, light.bytes));
     sampling.push_back(stage::shade(kit, !occlusion, occlusion, light.shaded(), light.shaded()));
-    sampling.push_back(stage::average_samples(kit, "surface colour", "sampled colour"));
-    sampling.push_back(stage::keep_first_sample(kit, "surface depth", "sampled depth", 4));
+    sampling.push_back(stage::average_listed(kit, "surface colour", "sampled colour", 16));
     if (light.filtered)
-        sampling.push_back(occlusion
-                               ? stage::average_scalar_samples(kit, light.shaded(), "sampled light")
-                               : stage::average_samples(kit, light.shaded(), "sampled light"));
+        sampling.push_back(
+            stage::average_listed(kit, light.shaded(), "sampled light", light.bytes));
     graph.for_each_sample(std::move(sampling));
 
     // Block 3: cache update and merge.

@@ -9,9 +9,9 @@ namespace macula::stage {
 // radiance) and "support geometry" (float4: geometric normal, depth), one entry a support sample.
 frame::Stage extract_support(const FoveatedKit& kit);
 
-// Samples, last frame's image and the support image -> this frame's image (`kit.image`), "cache
-// info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the light buffer `light` from
-// "sampled light"; below 0 where no sample has been. "reprojected colour" is for looking at.
+// The list's samples, last frame's image and the support image -> this frame's image (`kit.image`),
+// "cache info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the light buffer `light`
+// from "sampled light"; below 0 where no sample has been. "reprojected colour" is for looking at.
 frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
                          std::uint32_t light_bytes);
 

@@ -63,6 +63,25 @@ frame::Stage average_scalar_samples(const Kit& kit, const std::string& from,
     return average(kit, from, image, 4, "average_scalar_samples");
 }
 
+frame::Stage average_listed(const Kit& kit, const std::string& from, const std::string& mean,
+                            std::uint32_t element_bytes) {
+    frame::Stage stage;
+    stage.name = "average " + mean;
+    stage.reads = {"ray count", from};
+    stage.writes = {per_slot(kit, mean, element_bytes)};
+    stage.prepare = [kit, from, mean, element_bytes, name = stage.name] {
+        auto kernel =
+            kit.library.kernel(kernel::VariantKey("shade/resolve"), "average_listed", kit.device);
+        return [kit, from, mean, element_bytes, name, kernel](frame::Run& run) mutable {
+            kernel
+                .set(run.params_buffer(), run.sample(), element_bytes / 4, run["ray count"],
+                     run[from], run[mean])
+                .launch(name, {kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
 frame::Stage keep_first_sample(const Kit& kit, const std::string& from, const std::string& image,
                                std::uint32_t element_bytes) {
     frame::Stage stage;

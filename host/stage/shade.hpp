@@ -17,6 +17,10 @@ frame::Stage average_samples(const Kit& kit, const std::string& from, const std:
 frame::Stage average_scalar_samples(const Kit& kit, const std::string& from,
                                     const std::string& image);
 
+// The mean over the samples of each slot of a list: `element_bytes` of floats.
+frame::Stage average_listed(const Kit& kit, const std::string& from, const std::string& mean,
+                            std::uint32_t element_bytes);
+
 // The first sample of each pixel, as it is: for what has no meaningful mean.
 frame::Stage keep_first_sample(const Kit& kit, const std::string& from, const std::string& image,
                                std::uint32_t element_bytes);

@@ -115,17 +115,17 @@ typedef struct Out {
 } Out;
 
 static inline void take_sample(const Out* out, uint pixel, uint now, float4 colour,
-                               global const LightValue* light) {
+                               global const LightValue* light, uint slot) {
     out->colour[pixel] = colour;
     out->info[pixel] = (uint2)(as_uint(1.0f), pack_touch(1.0f, now));
     if (out->light)
-        out->light[pixel] = light[pixel];
+        out->light[pixel] = light[slot];
 }
 
 /* Equation 1. */
 static inline void blend_sample(const Out* out, uint pixel, uint now,
                                 global const WeierParams* weier, float4 colour,
-                                global const LightValue* light, const Cache* cache) {
+                                global const LightValue* light, uint slot, const Cache* cache) {
     const float k = least_weight(age_of_touch(cache->touch, now), weier->log2_k_min,
                                  weier->log2_k_slope, weier->k_max);
     const float alpha = blending_weight(cache->rho, k);
@@ -133,7 +133,7 @@ static inline void blend_sample(const Out* out, uint pixel, uint now,
     out->colour[pixel] = alpha < 1.0f ? (float4)(blended.xyz, 1.0f) : colour;
     out->info[pixel] = (uint2)(as_uint(samples_worth(alpha, cache->rho)), pack_touch(alpha, now));
     if (out->light) {
-        const LightValue lit = light[pixel];
+        const LightValue lit = light[slot];
         out->light[pixel] = alpha < 1.0f && is_lit(cache->light)
                                 ? fma(lit - cache->light, (LightValue)(alpha), cache->light)
                                 : lit;
@@ -149,20 +149,22 @@ static inline uint known_lanes(const uint* keys) {
 
 /* One work-item a packet of sixteen pixels. `reprojected_colour` may be null, and the light
  * buffers where the method has none. */
-kernel void merge_cache(
-    global const FrameParams* restrict frame, global const WeierParams* restrict weier,
-    global const float* restrict mesh_columns, global const float* restrict mesh_rows,
-    global const float4* restrict vertices, global const uint* restrict keys,
-    global const uint* restrict history_kept, global const uint* restrict masks,
-    global const float4* restrict past_colour, global const uint2* restrict past_info,
-    global const LightValue* restrict past_light, global const float4* restrict support_image,
-    global const float4* restrict sampled_colour, global const float* restrict sampled_depth,
-    global const LightValue* restrict sampled_light, global float4* restrict colour,
-    global uint2* restrict info, global LightValue* restrict light,
-    global float4* restrict reprojected_colour) {
+kernel void
+merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
+            global const float* restrict mesh_columns, global const float* restrict mesh_rows,
+            global const float4* restrict vertices, global const uint* restrict keys,
+            global const uint* restrict history_kept, global const uint* restrict masks,
+            global const uint* restrict offsets, global const float4* restrict past_colour,
+            global const uint2* restrict past_info, global const LightValue* restrict past_light,
+            global const float4* restrict support_image,
+            global const float4* restrict sampled_colour, global const float* restrict depth,
+            global const LightValue* restrict sampled_light, global float4* restrict colour,
+            global uint2* restrict info, global LightValue* restrict light,
+            global float4* restrict reprojected_colour) {
     const uint packet = (uint)get_global_id(0);
     const uint width = frame->width, height = frame->height, now = frame->frame;
     const uint sampled = masks[packet] & 0xffffu, fresh = masks[packet] >> 16;
+    const uint first = offsets[packet]; /* slot of the packet's first sample */
     const Out out = {colour, info, light};
     uint x0, y0;
     pixel_of_slot(packet * 16u, width, &x0, &y0);
@@ -172,7 +174,8 @@ kernel void merge_cache(
     for (uint lanes = fresh; lanes != 0u; lanes &= lanes - 1u) {
         const uint lane = first_lane(lanes);
         const uint pixel = (y0 + (lane >> 2)) * width + x0 + (lane & 3u);
-        take_sample(&out, pixel, now, sampled_colour[pixel], sampled_light);
+        const uint slot = first + popcount(sampled & ((1u << lane) - 1u));
+        take_sample(&out, pixel, now, sampled_colour[slot], sampled_light, slot);
     }
     const uint rest = reprojected_colour ? inside : inside & ~fresh;
     if (rest == 0u)
@@ -194,6 +197,13 @@ kernel void merge_cache(
     float inverse_depth[16];
     vstore16(history.inverse_depth, 0, inverse_depth);
     const uint wide = weier->filter_samples > 0u ? history.wide : 0u;
+
+    for (uint lanes = known; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        MACULA_FETCH(past_colour, (ulong)texels.index[0][lane] * sizeof(float4));
+        MACULA_FETCH(past_colour, (ulong)texels.index[2][lane] * sizeof(float4));
+        MACULA_FETCH(past_info, (ulong)texels.nearest[lane] * sizeof(uint2));
+    }
 
     for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
         const uint lane = first_lane(lanes), bit = lanes & -lanes;
@@ -222,11 +232,13 @@ kernel void merge_cache(
         if ((fresh & bit) != 0u)
             continue;
         if ((sampled & bit) != 0u) {
-            const float same = fabs(fma(sampled_depth[pixel], inverse_depth[lane], -1.0f));
+            const uint slot = first + popcount(sampled & (bit - 1u));
+            const float same = fabs(fma(depth[slot], inverse_depth[lane], -1.0f));
             if (found && same <= weier->merge_threshold)
-                blend_sample(&out, pixel, now, weier, sampled_colour[pixel], sampled_light, &cache);
+                blend_sample(&out, pixel, now, weier, sampled_colour[slot], sampled_light, slot,
+                             &cache);
             else
-                take_sample(&out, pixel, now, sampled_colour[pixel], sampled_light);
+                take_sample(&out, pixel, now, sampled_colour[slot], sampled_light, slot);
         } else {
             const float4 shown =
                 found ? cache.colour : from_support(support_image, frame, weier, px, py);

@@ -21,6 +21,6 @@ extract_support(global const FrameParams* restrict frame, global const WeierPara
     if (i == MACULA_NO_CELL || j == MACULA_NO_CELL)
         return;
     const uint index = j * weier->support_width + i;
-    image[index] = sampled_colour[pixel];
+    image[index] = sampled_colour[slot];
     geometry[index] = (float4)(normal[slot].xyz, depth[slot]);
 }

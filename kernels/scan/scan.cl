@@ -96,10 +96,17 @@ scan_top(global const uint *values, global const uint *count, uint capacity, uin
         *total = up_to_here;
 }
 
-/* indices[k] = position of the k-th flag that is 1, in order. */
+/* indices[k] = position of the k-th flag that is 1, in order. One work-item for ITEMS flags: a loop
+ * over the set bits, since CPUs scatter vectors with a few lanes very slowly. */
 kernel void scatter_indices(global const uint *flags, global const uint *offsets,
                             global const uint *count, uint capacity, global uint *indices) {
-    const uint i = (uint)get_global_id(0);
-    if (i < min(*count, capacity) && flags[i] != 0u)
-        indices[offsets[i]] = i;
+    const uint first = (uint)get_global_id(0) * ITEMS, n = min(*count, capacity);
+    if (first >= n)
+        return;
+    const uint end = min(first + ITEMS, n);
+    uint set = 0u;
+    for (uint i = first; i < end; ++i)
+        set |= (flags[i] != 0u ? 1u : 0u) << (i - first);
+    for (uint place = offsets[first]; set != 0u; set &= set - 1u)
+        indices[place++] = first + popcount((set & -set) - 1u);
 }

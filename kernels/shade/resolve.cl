@@ -30,6 +30,20 @@ kernel void average_scalar_samples(global const FrameParams* restrict frame, uin
     image[pixel] = sample + 1u == count ? sum * m_divide(1.0f, (float)count) : sum;
 }
 
+/* The same without going to pixels: for lists, whose slots stay. `components`: floats a slot. */
+kernel void average_listed(global const FrameParams* restrict frame, uint sample, uint components,
+                           global const uint* restrict ray_count,
+                           global const float* restrict samples, global float* restrict means) {
+    const uint slot = get_global_id(0);
+    if (slot >= *ray_count)
+        return;
+    const uint count = frame->samples_per_pixel;
+    for (uint i = slot * components; i < (slot + 1u) * components; ++i) {
+        const float sum = sample == 0u ? samples[i] : means[i] + samples[i];
+        means[i] = sample + 1u == count ? sum * m_divide(1.0f, (float)count) : sum;
+    }
+}
+
 /* Copies the first sample's words to its pixel: for what has no meaningful mean (ids, positions,
  * normals). `words`: 32-bit words an element. */
 kernel void keep_first_sample(uint words, global const uint* restrict ray_count,
