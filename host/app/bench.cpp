@@ -1,4 +1,4 @@
-/// `macula bench traversal`: the traversal variants beside Embree.
+/// `macula bench`: the traversal variants beside Embree, and the foveated benchmarks.
 #include "host/app/command.hpp"
 
 #include <CLI/App.hpp>
@@ -13,6 +13,7 @@
 
 #include "bench/report.hpp"
 #include "bench/traversal.hpp"
+#include "host/app/bench_foveation.hpp"
 
 #include <unistd.h>
 
@@ -107,8 +108,19 @@ macula::app::Run add_traversal(CLI::App& command) {
 macula::app::Run add(CLI::App& command) {
     CLI::App* traversal = command.add_subcommand(
         "traversal", "Traversal variants and Embree on the same rays and cores");
+    CLI::App* table1 = command.add_subcommand(
+        "table1", "Full and foveated frames along fly-throughs: table 1 of Weier et al. 2016");
+    CLI::App* figure5 =
+        command.add_subcommand("figure5", "The same for four foveal regions: their figure 5");
     command.require_subcommand(1);
-    return add_traversal(*traversal);
+    const auto run_traversal = add_traversal(*traversal);
+    const auto run_table1 = macula::app::add_bench_table1(*table1);
+    const auto run_figure5 = macula::app::add_bench_figure5(*figure5);
+    return [=] {
+        if (table1->parsed())
+            return run_table1();
+        return figure5->parsed() ? run_figure5() : run_traversal();
+    };
 }
 
 } // namespace
@@ -130,5 +142,5 @@ macula::app::Run add(CLI::App& command) {
 #endif
 
 namespace {
-const macula::app::Command command("bench", "Measure against Embree", add);
+const macula::app::Command command("bench", "Measure against Embree and against full frames", add);
 } // namespace

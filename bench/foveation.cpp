@@ -1,0 +1,262 @@
+#include "bench/foveation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "bench/foveation_scenes.hpp"
+#include "bench/resume_file.hpp"
+#include "host/metric/statistics.hpp"
+#include "host/render/renderer.hpp"
+#include "scenes/gaze/spec.hpp"
+#include "scenes/head/pose.hpp"
+
+namespace macula::bench {
+namespace {
+
+// What one method needed for the measured frames.
+struct Series {
+    std::vector<double> device_ms, wall_ms, rays, camera_rays;
+    std::array<std::vector<double>, kStageGroups> group_ms;
+
+    void add(const render::FrameReport& report) {
+        const auto groups = sum_by_group(report.stages);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < kStageGroups; ++i) {
+            group_ms[i].push_back(groups[i]);
+            sum += groups[i];
+        }
+        device_ms.push_back(sum);
+        wall_ms.push_back(report.wall_ms);
+        rays.push_back(static_cast<double>(report.total_rays()));
+        camera_rays.push_back(
+            static_cast<double>(report.rays[static_cast<std::size_t>(kernel::RayClass::primary)] +
+                                report.rays[static_cast<std::size_t>(kernel::RayClass::sparse)]));
+    }
+};
+
+double mean(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values)
+        sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+void fill(FoveationRow& row, const Series& full, const Series& ours) {
+    row.rays_full = mean(full.rays);
+    row.rays_ours = mean(ours.rays);
+    row.sampled = mean(ours.camera_rays) / mean(full.camera_rays);
+    row.wall_ms_full = metric::median(full.wall_ms);
+    row.wall_ms_ours = metric::median(ours.wall_ms);
+    row.ms_full = metric::median(full.device_ms);
+    row.ms_ours = metric::median(ours.device_ms);
+    row.device_clock = row.ms_full > 0.0 && row.ms_ours > 0.0;
+    if (!row.device_clock) {
+        row.ms_full = row.wall_ms_full;
+        row.ms_ours = row.wall_ms_ours;
+    }
+    for (std::size_t i = 0; i < kStageGroups; ++i)
+        row.ms[i] = metric::median(ours.group_ms[i]);
+    row.speedup = row.ms_full / row.ms_ours;
+    row.wall_speedup = row.wall_ms_full / row.wall_ms_ours;
+    const std::vector<double> ratios = row.device_clock
+                                           ? metric::ratios(full.device_ms, ours.device_ms)
+                                           : metric::ratios(full.wall_ms, ours.wall_ms);
+    row.speedup_p10 = metric::percentile(ratios, 0.1);
+    row.speedup_p90 = metric::percentile(ratios, 0.9);
+    row.efficiency = row.speedup * row.rays_ours / row.rays_full;
+}
+
+// Frames of the path: `segments` stretches that are spread over it evenly.
+class Schedule {
+  public:
+    Schedule(const FoveationOptions& options, std::uint32_t path_frames)
+        : options_(options), path_(std::max(path_frames, options.frames)) {}
+
+    // The first measured frame of a segment, after its warm-up.
+    std::uint32_t first(std::uint32_t segment) const {
+        const std::uint64_t from = std::uint64_t{path_} * segment / options_.segments;
+        return static_cast<std::uint32_t>(from) + options_.warm_up;
+    }
+    // How many of the frames belong to the segment.
+    std::uint32_t count(std::uint32_t segment) const {
+        const auto before = [&](std::uint32_t s) {
+            return static_cast<std::uint32_t>(std::uint64_t{options_.frames} * s /
+                                              options_.segments);
+        };
+        return before(segment + 1) - before(segment);
+    }
+
+  private:
+    const FoveationOptions& options_;
+    std::uint32_t path_;
+};
+
+// A scene with the display and gaze of the benchmark.
+class Flight {
+  public:
+    Flight(const FoveationOptions& options, compute::Device& device, const std::string& name)
+        : options_(options), device_(device), name_(scene_name(name)),
+          scene_(load_fly_through(name, options.scene_path)),
+          display_(scene::find_display(options.display)) {
+        if (options.width != 0) {
+            display_.width = options.width;
+            display_.height = options.height;
+        }
+        gaze_ = scene::parse_gaze(options.gaze, {display_, scene::Eye::mono, {}});
+        if (gaze_->live())
+            throw std::invalid_argument("--gaze " + options.gaze +
+                                        ": a benchmark needs a gaze that can be repeated");
+    }
+
+    // What a row of these lights and region will say besides its figures.
+    FoveationRow blank_row(frame::LightMode lights, const Region& region) const {
+        FoveationRow row;
+        row.scene = name_;
+        row.frc = region.name;
+        row.lights = lights;
+        row.width = display_.width;
+        row.height = display_.height;
+        row.frames = options_.frames;
+        row.segments = options_.segments;
+        row.warm_up = options_.warm_up;
+        row.gaze = gaze_->describe();
+        row.device = device_.facts().name;
+        row.driver = device_.facts().driver_version;
+        row.commit = MACULA_COMMIT;
+        return row;
+    }
+
+    // Fills the rows, which share their lights: one for each region.
+    void measure(std::vector<FoveationRow>& rows, std::span<const Region> regions) {
+        const frame::LightMode lights = rows.front().lights;
+        std::vector<render::Renderer> methods;
+        methods.push_back(make("full", lights, Region{}));
+        for (const Region& region : regions)
+            methods.push_back(make("weier", lights, region));
+        std::vector<Series> series(methods.size());
+        const Schedule schedule(options_, scene_.path.frames);
+        render(methods.front(), schedule.first(0)); // its first frame builds its kernels
+        for (std::uint32_t segment = 0; segment < options_.segments; ++segment)
+            fly(methods, series, schedule.first(segment), schedule.count(segment));
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            rows[i].triangles = methods.front().geometry().triangles;
+            fill(rows[i], series.front(), series[i + 1]);
+        }
+    }
+
+  private:
+    render::Renderer make(const char* method, frame::LightMode lights, const Region& region) const {
+        render::Options engine;
+        engine.method = method;
+        engine.width = display_.width;
+        engine.height = display_.height;
+        engine.lights = lights;
+        engine.light_samples = options_.light_samples;
+        engine.ambient_occlusion_samples = options_.ambient_occlusion_samples;
+        const scene::EyeView& eye = display_.eye(scene::Eye::mono);
+        engine.tangents = {static_cast<float>(eye.tan_left), static_cast<float>(eye.tan_right),
+                           static_cast<float>(eye.tan_up), static_cast<float>(eye.tan_down)};
+        engine.weier.r0 = region.r0;
+        engine.weier.r1 = region.r1;
+        engine.weier.p_min = region.p_min;
+        engine.geometry.cache_directory = options_.bvh_cache;
+        return {device_, scene_, engine};
+    }
+
+    render::FrameReport render(render::Renderer& renderer, std::uint32_t frame) {
+        const scene::Camera head = frame::camera_on_path(scene_, frame);
+        const auto time_ns =
+            static_cast<std::int64_t>(std::llround(frame * (1e9 / display_.refresh_hz)));
+        const scene::GazeSample sample = gaze_->at(time_ns);
+        frame::Gaze gaze;
+        gaze.direction = glm::vec3(scene::world_from_head(head) * sample.of(scene::Eye::mono));
+        gaze.widening = static_cast<float>(sample.widening);
+        return renderer.render(
+            frame,
+            scene::eye_camera(head, display_.eye(scene::Eye::mono), 1.0 / scene_.metres_per_unit),
+            gaze);
+    }
+
+    // `full` has no history to warm up.
+    void fly(std::vector<render::Renderer>& methods, std::vector<Series>& series,
+             std::uint32_t first, std::uint32_t count) {
+        for (std::size_t i = 1; i < methods.size(); ++i) {
+            methods[i].reset();
+            for (std::uint32_t frame = first - options_.warm_up; frame < first; ++frame)
+                render(methods[i], frame);
+        }
+        for (std::uint32_t frame = first; frame < first + count; ++frame) {
+            for (std::size_t turn = 0; turn < methods.size(); ++turn) {
+                // Forwards and backwards, so that no method always follows the same one.
+                const std::size_t i = frame % 2 == 0 ? turn : methods.size() - 1 - turn;
+                series[i].add(render(methods[i], frame));
+            }
+        }
+    }
+
+    const FoveationOptions& options_;
+    compute::Device& device_;
+    std::string name_;
+    scene::Scene scene_;
+    scene::Display display_;
+    scene::GazePointer gaze_;
+};
+
+void check(const FoveationOptions& options) {
+    if (options.frames < 1 || options.frames > 100000)
+        throw std::invalid_argument("--frames must lie between 1 and 100000");
+    if (options.segments < 1 || options.segments > options.frames)
+        throw std::invalid_argument("--segments must lie between 1 and the number of frames");
+    if (options.warm_up < 1 || options.warm_up > 1000)
+        throw std::invalid_argument("--warm-up must lie between 1 and 1000");
+}
+
+} // namespace
+
+std::vector<FoveationRow> run_foveation(const FoveationOptions& options,
+                                        const std::vector<Region>& regions,
+                                        const FoveationProgress& progress) {
+    check(options);
+    compute::Device device = compute::open(options.device);
+    const ResumeFile file(options.resume);
+    std::vector<frame::LightMode> lights = options.lights;
+    if (lights.empty())
+        lights = {frame::LightMode::point, frame::LightMode::area,
+                  frame::LightMode::ambient_occlusion};
+    std::vector<FoveationRow> all;
+    for (const std::string& name : options.scenes) {
+        progress.note("loading " + name);
+        Flight flight(options, device, name);
+        for (const frame::LightMode mode : lights) {
+            std::vector<FoveationRow> rows;
+            std::vector<Region> missing;
+            for (const Region& region : regions) {
+                const FoveationRow blank = flight.blank_row(mode, region);
+                if (const FoveationRow* known = file.find(blank)) {
+                    all.push_back(*known);
+                    progress.row(*known, false);
+                } else {
+                    rows.push_back(blank);
+                    missing.push_back(region);
+                }
+            }
+            if (rows.empty())
+                continue;
+            progress.note(fmt::format("{}, {}", name, frame::name(mode)));
+            flight.measure(rows, missing);
+            for (const FoveationRow& row : rows) {
+                file.add(json_line(row, progress.more(row)));
+                all.push_back(row);
+                progress.row(row, true);
+            }
+        }
+    }
+    return all;
+}
+
+} // namespace macula::bench
