@@ -6,7 +6,7 @@
 #include "shared/bvh.h"
 #include "shared/ray.h"
 
-/* flags[slot] = 1 where shadow rays are needed. One work-item a slot of the launch. */
+/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item a slot of the launch. */
 kernel void flag_lit_surfaces(global const uint* restrict ray_count,
                               global const uint* restrict triangle,
                               global const float4* restrict position,
@@ -14,6 +14,8 @@ kernel void flag_lit_surfaces(global const uint* restrict ray_count,
                               global const Light* restrict lights, uint light,
                               global uint* restrict flags) {
     const uint slot = get_global_id(0);
+    if (beyond_list(*ray_count))
+        return;
     const bool hit = slot < *ray_count && triangle[slot] != MACULA_NO_TRIANGLE;
     flags[slot] =
         hit && light_may_reach(lights + light, position[slot].xyz, geometric_normal[slot].xyz);

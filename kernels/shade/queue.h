@@ -8,6 +8,12 @@
 #include "lib/vector.h"
 #include "shared/ray.h"
 
+/* True for all work-items of a group that lies beyond the list. CPUs turn a test of each slot into
+ * masked loads, which are slow where the memory behind the list was never touched. */
+MACULA_ALWAYS_INLINE bool beyond_list(uint ray_count) {
+    return (uint)get_group_id(0) * (uint)get_local_size(0) >= ray_count;
+}
+
 /* Entries left at `first`. */
 MACULA_ALWAYS_INLINE uint batch_count(uint queue_count, uint first) {
     return queue_count > first ? queue_count - first : 0u;
