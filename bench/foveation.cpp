@@ -61,11 +61,11 @@ void fill(FoveationRow& row, const Series& full, const Series& ours) {
     }
     for (std::size_t i = 0; i < kStageGroups; ++i)
         row.ms[i] = metric::median(ours.group_ms[i]);
-    row.speedup = row.ms_full / row.ms_ours;
-    row.wall_speedup = row.wall_ms_full / row.wall_ms_ours;
     const std::vector<double> ratios = row.device_clock
                                            ? metric::ratios(full.device_ms, ours.device_ms)
                                            : metric::ratios(full.wall_ms, ours.wall_ms);
+    row.speedup = metric::median(ratios);
+    row.wall_speedup = metric::median(metric::ratios(full.wall_ms, ours.wall_ms));
     row.speedup_p10 = metric::percentile(ratios, 0.1);
     row.speedup_p90 = metric::percentile(ratios, 0.9);
     row.efficiency = row.speedup * row.rays_ours / row.rays_full;

@@ -50,9 +50,9 @@ struct FoveationRow {
     double ms_full = 0.0, ms_ours = 0.0;
     bool device_clock = true;
     double wall_ms_full = 0.0, wall_ms_ours = 0.0;
-    std::array<double, kStageGroups> ms{};       // of ours, by group
-    double speedup = 0.0;                        // ms_full / ms_ours
-    double speedup_p10 = 0.0, speedup_p90 = 0.0; // of the frames' own ratios
+    std::array<double, kStageGroups> ms{}; // of ours, by group
+    double speedup = 0.0;                  // of the frames' own ratios, full / ours: their median
+    double speedup_p10 = 0.0, speedup_p90 = 0.0;
     double wall_speedup = 0.0;
     double efficiency = 0.0; // speedup / (rays_full / rays_ours)
     std::string device, driver, commit, gaze;

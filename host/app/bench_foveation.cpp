@@ -73,6 +73,8 @@ FoveationOptions parse(const Options& options) {
         ViewOptions view;
         view.size = options.size;
         std::tie(flight.width, flight.height) = size_of(view, 0, 0);
+        if (flight.width == 0 || flight.height == 0)
+            throw std::invalid_argument("--size \"" + options.size + "\": no pixels");
     }
     flight.bvh_cache = bvh_cache_folder();
     return flight;

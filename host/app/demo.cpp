@@ -1,4 +1,4 @@
-/// `macula demo`: the pictures of ./demo and a small table of what they took.
+/// `macula demo`: the pictures and the fly-through of ./demo, and what they took.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "host/app/command.hpp"
+#include "host/app/fly_through.hpp"
 #include "host/app/frame_files.hpp"
 #include "host/app/render_options.hpp"
 #include "scenes/load.hpp"
@@ -69,6 +70,7 @@ int run(const Options& options) {
         files.write(renderer, picture.frame);
         print_row(picture, renderer, report);
     }
+    app::fly_through({}, device, options.out / "fly-through");
     fmt::print("pictures: {}\n", std::filesystem::absolute(options.out).string());
     return 0;
 }
@@ -80,6 +82,7 @@ app::Run add(CLI::App& command) {
     return [options] { return run(*options); };
 }
 
-const app::Command command("demo", "Render the demo pictures and print what they took", add);
+const app::Command
+    command("demo", "Render the demo pictures and fly-through, and print what they took", add);
 
 } // namespace
