@@ -10,7 +10,7 @@ namespace macula::compute {
 namespace {
 
 // For a new buffer of a CPU device: the memory is the process's own.
-void prefer_huge_pages(const DeviceState& device, const cl::Buffer& buffer, std::uint64_t bytes) {
+void back_by_huge_pages(const DeviceState& device, const cl::Buffer& buffer, std::uint64_t bytes) {
     void* const data =
         device.queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
     prefer_huge_pages(data, bytes);
@@ -114,7 +114,7 @@ Buffer Device::allocate(std::uint64_t bytes, const std::string& what) const {
         buffer->buffer =
             cl::Buffer(state_->context, CL_MEM_READ_WRITE | place, std::max(bytes, kLeast));
         if (state_->facts.type == DeviceType::cpu && bytes >= kLeastHugeBytes)
-            prefer_huge_pages(*state_, buffer->buffer, bytes);
+            back_by_huge_pages(*state_, buffer->buffer, bytes);
     } catch (const cl::Error& e) {
         throw Error("cannot allocate " + megabytes(bytes) + " for \"" + what + "\" on " +
                         state_->name() + ", which has " +
