@@ -7,6 +7,9 @@
 #include "lib/camera.h"
 #include "lib/reprojection.h"
 
+/* Of the light: part of the stronger of two values. */
+#define MOST_NOISE 0.4f
+
 typedef struct Search {
     global const FrameParams* frame;
     global const WeierParams* weier;
@@ -103,6 +106,8 @@ filter_light(global const FrameParams* restrict frame, global const WeierParams*
         return;
     const uint random = random_mix(random_key(pixel, frame->frame, frame->seed) + sample);
     const LightValue found = search(&s, (int)x, (int)y, random);
-    if (is_lit(found))
+    /* Noise is smaller than this; a shadow's edge or a turn of the surface is not. */
+    const float here = strength_of(light[slot]), there = strength_of(found);
+    if (is_lit(found) && fabs(here - there) <= MOST_NOISE * m_max(here, there))
         filtered[slot] = found;
 }

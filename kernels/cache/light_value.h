@@ -16,6 +16,17 @@ static inline bool is_lit(LightValue v) {
     return v >= 0.0f && v < 1e30f;
 }
 #endif
+/* The light's strength. */
+#if MACULA_LIGHT == 4
+static inline float strength_of(LightValue v) {
+    return fma(v.x, 0.2126f, fma(v.y, 0.7152f, v.z * 0.0722f));
+}
+#else
+static inline float strength_of(LightValue v) {
+    return v;
+}
+#endif
+
 /* Of a pixel that has had no sample: no light is below 0. */
 #define UNLIT ((LightValue)(-1.0f))
 
