@@ -3,7 +3,8 @@
 #include "lib/sampling.h"
 #include "shade/queue.h"
 
-/* flags[slot] = 1 where something was hit, up to the list's end. One work-item a slot of the launch. */
+/* flags[slot] = 1 where something was hit, up to the list's end. One work-item a slot of the
+ * launch. */
 kernel void flag_surfaces(global const uint* restrict ray_count,
                           global const uint* restrict triangle, global uint* restrict flags) {
     const uint slot = get_global_id(0);

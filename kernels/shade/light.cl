@@ -6,7 +6,8 @@
 #include "shared/bvh.h"
 #include "shared/ray.h"
 
-/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item a slot of the launch. */
+/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item a slot of the
+ * launch. */
 kernel void flag_lit_surfaces(global const uint* restrict ray_count,
                               global const uint* restrict triangle,
                               global const float4* restrict position,

@@ -74,6 +74,8 @@ TEST_P(EachMode, EveryValueIsFinite) {
     o.samples_per_pixel = 2;
     for (const render::ImageFormat& format : render::image_formats()) {
         const std::string name = format.name;
+        if (name == "reprojected colour")
+            break; // from here on they are those of method weier
         const bool occlusion = GetParam() == LightMode::ambient_occlusion;
         if (name != (occlusion ? "irradiance" : "ambient occlusion"))
             o.images.push_back(name);
