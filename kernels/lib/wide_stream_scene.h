@@ -13,16 +13,15 @@ typedef struct QueuedRays {
     float o[3][MACULA_QUEUED_RAYS], d[3][MACULA_QUEUED_RAYS];
     float t_min[MACULA_QUEUED_RAYS], t_max[MACULA_QUEUED_RAYS];
     ushort index[MACULA_QUEUED_RAYS]; /* in the queue, less that of the work-item's first */
+    float reach;                      /* largest origin component in size of the active ones */
 } QueuedRays;
 
-/* make_trace_ray for the lanes from `lane` on, from the rays at `from`; returns their greatest
- * reach. */
-static inline float prepare_rays16(const QueuedRays* q, uint from, Stream* s, const StreamClass* c,
-                                   uint lane) {
+/* make_trace_ray for the lanes from `lane` on, from the rays at `from`. */
+static inline void prepare_rays16(const QueuedRays* q, uint from, Stream* s, const StreamClass* c,
+                                  uint lane) {
     const float16 o[3] = {vload16(0, q->o[0] + from), vload16(0, q->o[1] + from),
                           vload16(0, q->o[2] + from)};
-    const float16 reach = reach16(o[0], o[1], o[2]);
-    const float16 margin = MACULA_RAY_MARGIN * reach;
+    const float16 margin = MACULA_RAY_MARGIN * reach16(o[0], o[1], o[2]);
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float16 r =
             m_divide16((float16)(1.0f), bounded_direction16(vload16(0, q->d[axis] + from)));
@@ -37,7 +36,6 @@ static inline float prepare_rays16(const QueuedRays* q, uint from, Stream* s, co
     vstore16(dy * sz, 0, s->sy + lane);
     vstore16(vload16(0, q->t_min + from), 0, s->t_min + lane);
     vstore16(vload16(0, q->t_max + from), 0, s->t_max + lane);
-    return greatest_lane16(reach);
 }
 
 #if MACULA_INSTANCES
@@ -187,36 +185,31 @@ static inline void trace_class(const TraceScene* scene, const QueuedRays* q, uin
                     results);
 }
 #else
-/* Returns the chunk's greatest reach. */
-static inline float prepare_chunk(const QueuedRays* q, uint begin, Stream* s,
-                                  const StreamClass* c) {
-    const float reach =
-        m_max(prepare_rays16(q, begin, s, c, 0u), prepare_rays16(q, begin + 16u, s, c, 16u));
+static inline void prepare_chunk(const QueuedRays* q, uint begin, Stream* s, const StreamClass* c) {
+    prepare_rays16(q, begin, s, c, 0u);
+    prepare_rays16(q, begin + 16u, s, c, 16u);
     for (uint k = 0u; k < MACULA_STREAM_LANES; ++k)
         s->best[k] = no_hit(s->t_max[k]);
     s->first_triangle = 0u;
     s->mesh_triangle = 0u;
-    return reach;
 }
 
 /* Traces the rays in [begin, end), all of one class. */
 static inline void trace_class(const TraceScene* scene, const QueuedRays* q, uint begin, uint end,
                                uint class_index, uint first, global uint* results) {
     const int root = scene->instances[0].root;
+    const StreamClass c = stream_class(class_index, q->reach);
     while (begin < end) {
         Stream s[MACULA_STREAM_CHUNKS];
         StreamWalk walk[MACULA_STREAM_CHUNKS];
         uint count[MACULA_STREAM_CHUNKS];
-        StreamClass c = stream_class(class_index, 0.0f);
-        float reach = 0.0f;
         uint next = begin;
         for (uint i = 0u; i < MACULA_STREAM_CHUNKS; ++i) {
             count[i] = end - next < MACULA_CHUNK ? end - next : MACULA_CHUNK;
-            reach = m_max(reach, prepare_chunk(q, next, s + i, &c));
+            prepare_chunk(q, next, s + i, &c);
             start_walk(walk + i, root, mask_of(count[i]));
             next += count[i];
         }
-        c = stream_class(class_index, reach);
         traverse_stream(scene, s, &c, walk);
         for (uint i = 0u; i < MACULA_STREAM_CHUNKS; ++i) {
             store_chunk(q, begin, count[i], first, s + i, results);

@@ -46,10 +46,13 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
         begin[b + 1u] = begin[b] + next[b];
         next[b] = begin[b];
     }
+    q->reach = 0x1p-20f;
     for (uint i = 0u; i < count; ++i) {
         const uint to = next[bin[i]]++;
         copy_ray(blocks + i / MACULA_RAY_BLOCK, i % MACULA_RAY_BLOCK, q, to);
         q->index[to] = (ushort)i;
+        const float reach = m_max(m_max(fabs(q->o[0][to]), fabs(q->o[1][to])), fabs(q->o[2][to]));
+        q->reach = bin[i] != INACTIVE && reach > q->reach ? reach : q->reach;
     }
     for (uint i = 0u; i < MACULA_STREAM_LANES; ++i)
         copy_ray(blocks, 0u, q, count + i);
