@@ -171,9 +171,11 @@ std::vector<Ray> through_features(const scene::Scene& scene) {
     return rays;
 }
 
-// Every third ray of each kind of inactivity.
+// Every third ray of each kind of inactivity, some with origins that are no places.
 std::vector<Ray> with_inactive(std::vector<Ray> rays) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (i % 3 == 0 && i % 2 == 0)
+            rays[i].origin[i / 6 % 3] = std::nanf("");
         if (i % 3 == 0)
             rays[i].t_max = -1.0f;
         else if (i % 7 == 0)
