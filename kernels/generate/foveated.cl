@@ -2,7 +2,7 @@
  * section 3.1). Pixels are chosen sixteen at a time, a 4 x 4 packet of lib/camera.h; the chosen
  * ones keep that order, so that sixteen neighbours in the list are still close together. */
 #include "lib/acuity.h"
-#include "lib/camera.h"
+#include "lib/camera_ray.h"
 #include "lib/simd.h"
 #include "shared/ray.h"
 #include "shared/surface.h"
@@ -149,16 +149,7 @@ static inline void write_ray(global const FrameParams* frame, global const Weier
     subpixel_offset(key, sample, grid, &dx, &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
-    global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
-    const uint lane = slot % MACULA_RAY_BLOCK;
-    block->origin_x[lane] = frame->camera.origin[0];
-    block->origin_y[lane] = frame->camera.origin[1];
-    block->origin_z[lane] = frame->camera.origin[2];
-    block->t_min[lane] = 0.0f;
-    block->direction_x[lane] = direction.x;
-    block->direction_y[lane] = direction.y;
-    block->direction_z[lane] = direction.z;
-    block->t_max[lane] = MACULA_BACKGROUND_DEPTH;
+    store_camera_ray(frame, rays, slot, direction, MACULA_BACKGROUND_DEPTH);
 }
 
 /* Fills the list's last ray block with inactive rays. */

@@ -1,6 +1,5 @@
 /* Primary rays of all pixels, in the order of lib/camera.h. */
-#include "lib/camera.h"
-#include "shared/ray.h"
+#include "lib/camera_ray.h"
 #include "shared/surface.h"
 
 /* One work-item a slot; the launch covers slot_count(width, height), which is the ray count. */
@@ -19,16 +18,7 @@ kernel void generate_primary_rays(global const FrameParams* restrict frame, uint
                     &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
-    global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
-    const uint lane = slot % MACULA_RAY_BLOCK;
-    block->origin_x[lane] = frame->camera.origin[0];
-    block->origin_y[lane] = frame->camera.origin[1];
-    block->origin_z[lane] = frame->camera.origin[2];
-    block->t_min[lane] = 0.0f;
-    block->direction_x[lane] = direction.x;
-    block->direction_y[lane] = direction.y;
-    block->direction_z[lane] = direction.z;
-    block->t_max[lane] = inside ? MACULA_BACKGROUND_DEPTH : -1.0f;
+    store_camera_ray(frame, rays, slot, direction, inside ? MACULA_BACKGROUND_DEPTH : -1.0f);
     pixels[slot] = inside ? pixel : MACULA_NO_PIXEL;
     if (slot == 0u) {
         *ray_count = (uint)get_global_size(0);
