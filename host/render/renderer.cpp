@@ -103,7 +103,8 @@ struct Renderer::State {
           tracer(device, library, geometry, stage::choose_variants(device, o.variant)),
           graph(method::find_method(o.method).make(
               {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
-               settings.ambient_occlusion_samples, has_highlights(scene), ray_totals},
+               settings.ambient_occlusion_samples, has_highlights(scene), ray_totals,
+               o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
               {o.lights, o.weier, o.lowres_scale})),
           timings(o.warm_up_frames) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());

@@ -83,7 +83,7 @@ MACULA_ALWAYS_INLINE void find_in_cell(const MeshTables* mesh, global const Weie
     const float16 weight =
         above ? at_lanes(upper.weight, to_x, to_y) : at_lanes(lower.weight, to_x, to_y);
     const float16 inverse =
-        m_divide16((float16)(1.0f), fabs(weight) > 1e-12f ? weight : (float16)(1e-12f));
+        m_divide((float16)(1.0f), fabs(weight) > 1e-12f ? weight : (float16)(1e-12f));
     const float16 part_x =
         above ? at_lanes(upper.from_x, to_x, to_y) : at_lanes(lower.from_x, to_x, to_y);
     const float16 part_y =
