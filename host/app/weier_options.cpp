@@ -53,6 +53,7 @@ void WeierOptions::add_to(CLI::App& command) {
     command
         .add_option("--support", support, "WxH samples of the support image (a cell: 4.6 pixels)")
         ->group("Method weier");
+    number("--first-frame", first_frame, "Pixels sampled without history: full (all) or sparse");
     number("--eps-depth", engine.depth_threshold, "Resample beyond this part of the depth");
     number("--eps-lum", engine.luminance_threshold, "Resample beyond this luminance, 0..1");
     number("--eps-edge", engine.edge_threshold, "Resample surfaces below this cosine");
@@ -81,6 +82,10 @@ stage::WeierOptions engine_options(const WeierOptions& options) {
     stage::WeierOptions engine = options.engine;
     parse_frc(options.frc, engine);
     engine.post = !options.no_post;
+    if (options.first_frame != "full" && options.first_frame != "sparse")
+        throw std::invalid_argument(
+            fmt::format("--first-frame \"{}\": full or sparse was expected", options.first_frame));
+    engine.first_frame_full = options.first_frame == "full";
     if (!options.support.empty()) {
         int end = 0;
         if (std::sscanf(options.support.c_str(), "%ux%u%n", &engine.support_width,

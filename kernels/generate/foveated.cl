@@ -104,10 +104,12 @@ static inline int16 on_support_grid(global const uint* columns, global const uin
     return (four_rows(column) != MACULA_NO_CELL) & (four_columns(row) != MACULA_NO_CELL);
 }
 
-/* Lanes that the resampling info wants; `keys`: of reproject/mesh.cl, or null in methods without.
- */
+/* Lanes that the resampling info wants, and all of them where there is no history to show: a first
+ * frame, or the one after a cut. `keys`: of reproject/mesh.cl. */
 static inline int16 to_resample(global const uint* keys, global const uint* history,
                                 global const WeierParams* weier, uint x0, uint y0) {
+    if (*history == 0u && weier->first_frame_full != 0u)
+        return (int16)(-1);
     const global uint* first = keys + y0 * weier->pitch + x0;
     const uint16 key =
         (uint16)(vload4(0, first), vload4(0, first + weier->pitch),

@@ -39,7 +39,8 @@ typedef struct WeierParams {
     float log2_k_min, log2_k_slope, k_max; /* k_t = min(2^(min + slope (dt - 1)), k_max) */
     uint filter_window;                    /* pixels: how far section 3.5 looks */
     uint filter_tries;                     /* n of section 3.5 */
-    uint pad[2];
+    uint first_frame_full;                 /* 1: without history every pixel is sampled */
+    uint pad[1];
 } WeierParams;
 MACULA_ASSERT_SIZE(WeierParams, 96);
 
