@@ -136,8 +136,8 @@ struct Scene {
     glm::vec3 ambient{0.1f};               // ambient radiance
     glm::vec3 background{0.0f};            // radiance of rays that miss
     float ambient_occlusion_radius = 0.0f; // 0: 15 % of the bounds' diagonal
-    std::optional<std::string> display;    // preferred display's name
-    std::optional<std::string> gaze;       // preferred gaze: a trace's name or file
+    std::optional<std::string> display;    // preferred display: a name or a file
+    std::optional<std::string> gaze;       // preferred gaze, as docs/gaze.md has it
     std::vector<std::string> warnings;     // counted, human-readable, for `macula scene`
 
     std::uint64_t triangle_count() const; // over instances

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "scenes/display.hpp"
 #include "scenes/formats.hpp"
 #include "scenes/procedural/registry.hpp"
 #include "scenes/scene_overrides.hpp"
@@ -29,7 +30,7 @@ std::vector<std::filesystem::path> search_folders(const std::filesystem::path& f
     return folders;
 }
 
-std::filesystem::path find_file(const TomlTable& table, const std::string& wanted,
+std::filesystem::path find_file(const TomlTable& table, const char* key, const std::string& wanted,
                                 const std::filesystem::path& file, const LoadOptions& options) {
     std::error_code error;
     if (std::filesystem::path(wanted).is_absolute())
@@ -41,8 +42,8 @@ std::filesystem::path find_file(const TomlTable& table, const std::string& wante
             return candidate;
         tried += (tried.empty() ? "" : ", ") + folder.string();
     }
-    table.fail("file", "'" + wanted + "' is in none of: " + tried +
-                           " (--scene-path or MACULA_SCENE_PATH name more folders)");
+    table.fail(key, "'" + wanted + "' is in none of: " + tried +
+                        " (--scene-path or MACULA_SCENE_PATH name more folders)");
 }
 
 Scene load_named(const TomlTable& root, const std::filesystem::path& path,
@@ -58,7 +59,7 @@ Scene load_named(const TomlTable& root, const std::filesystem::path& path,
         LoadOptions inner = options;
         if (++inner.nesting > kMaxNesting)
             root.fail("file", "scene files name each other in a circle");
-        return load_file(find_file(root, *file, path, options), inner);
+        return load_file(find_file(root, "file", *file, path, options), inner);
     }
     procedural::SceneParams params;
     params.seed = root.integer("seed", 0, INT64_MAX).value_or(options.seed);
@@ -138,7 +139,36 @@ CameraPath read_path(const TomlTable& table) {
     return path;
 }
 
-void read_view(const TomlTable& root, Scene& scene) {
+// A built-in display's name, or where the file that describes one lies.
+std::string read_display_name(const TomlTable& root, const std::string& name,
+                              const std::filesystem::path& path, const LoadOptions& options) {
+    std::string found = name;
+    if (name.ends_with(".toml") || name.ends_with(".json"))
+        found = find_file(root, "display", name, path, options).string();
+    try {
+        find_display(found);
+    } catch (const std::exception& error) {
+        root.fail("display", error.what());
+    }
+    return found;
+}
+
+// As --gaze takes it; a recording by where its file lies.
+std::string read_gaze_spec(const TomlTable& root, const std::string& spec,
+                           const std::filesystem::path& path, const LoadOptions& options) {
+    constexpr std::string_view kTrace = "trace:", kRepeat = ":repeat";
+    const bool repeat = spec.ends_with(kRepeat), named = spec.starts_with(kTrace);
+    std::string file = spec.substr(named ? kTrace.size() : 0);
+    if (repeat)
+        file.resize(file.size() - std::min(kRepeat.size(), file.size()));
+    if (!named && !file.ends_with(".csv"))
+        return spec;
+    return std::string(kTrace) + find_file(root, "gaze", file, path, options).string() +
+           (repeat ? std::string(kRepeat) : "");
+}
+
+void read_view(const TomlTable& root, const std::filesystem::path& path, const LoadOptions& options,
+               Scene& scene) {
     const std::vector<TomlTable> lights = root.tables("light"), cameras = root.tables("camera");
     if (!lights.empty())
         scene.lights.clear();
@@ -148,8 +178,8 @@ void read_view(const TomlTable& root, Scene& scene) {
         scene.cameras.clear();
     for (const TomlTable& table : cameras)
         scene.cameras.push_back(read_camera(table, scene.cameras.size()));
-    if (const std::optional<TomlTable> path = root.table("path"))
-        scene.path = read_path(*path);
+    if (const std::optional<TomlTable> flight = root.table("path"))
+        scene.path = read_path(*flight);
     if (const auto name = root.string("name"))
         scene.name = *name;
     if (const auto metres = root.number("metres_per_unit", 1e-9, 1e9))
@@ -161,9 +191,9 @@ void read_view(const TomlTable& root, Scene& scene) {
     if (const auto radius = root.number("ambient_occlusion_radius", 0.0, 1e18))
         scene.ambient_occlusion_radius = *radius;
     if (const auto display = root.string("display"))
-        scene.display = *display;
+        scene.display = read_display_name(root, *display, path, options);
     if (const auto gaze = root.string("gaze"))
-        scene.gaze = *gaze;
+        scene.gaze = read_gaze_spec(root, *gaze, path, options);
 }
 
 } // namespace
@@ -178,7 +208,7 @@ Scene load_scene_file(const std::string& text, const std::filesystem::path& path
     const UpAxis up = root.choice<UpAxis>("up", kAxes).value_or(UpAxis::y);
     const float scale = root.number("scale", 1e-9, 1e9).value_or(1.0f);
     transform_scene(scene, up, scale);
-    read_view(root, scene);
+    read_view(root, path, options, scene);
     for (const TomlTable& table : root.tables("material"))
         override_material(table, scene);
     root.reject_unknown();

@@ -118,14 +118,15 @@ std::vector<compute::Device> open_devices(const std::string& selectors, std::siz
     return devices;
 }
 
-EyeRun make_eye(const app::RenderOptions& options, const compute::Device& device,
-                const scene::Scene& scene, const app::Views& views, scene::Eye eye, bool alone) {
-    render::Options engine = app::engine_options(options);
+/// `engine`: but for the view.
+EyeRun make_eye(const app::RenderOptions& options, render::Options engine,
+                std::shared_ptr<render::DeviceScene> on_device, const scene::Scene& scene,
+                const app::Views& views, scene::Eye eye, bool alone) {
     engine.width = views.display().width;
     engine.height = views.display().height;
     if (!options.display.empty())
         engine.tangents = app::tangents_of(views.display().eye(eye));
-    output::Metadata metadata = metadata_of(options, device);
+    output::Metadata metadata = metadata_of(options, on_device->device);
     if (!options.display.empty()) {
         metadata.emplace_back("display", views.display().name);
         metadata.emplace_back("eye", scene::name(eye));
@@ -133,7 +134,7 @@ EyeRun make_eye(const app::RenderOptions& options, const compute::Device& device
     if (!options.gaze.empty())
         metadata.emplace_back("gaze", views.gaze_source());
     return {eye,
-            render::Renderer(device, scene, engine),
+            render::Renderer(std::move(on_device), scene, engine),
             app::FrameFiles(alone ? options.out : options.out / scene::name(eye), options.formats,
                             options.aovs, options.exposure, std::move(metadata)),
             {}};
@@ -173,11 +174,12 @@ void deliver(const app::RenderOptions& options, const EyeRun& run,
     std::fflush(stdout);
 }
 
-int render_frames(const app::RenderOptions& options) {
+int render_frames(app::RenderOptions options) {
     const std::vector<scene::Eye> which = app::eyes_of(options);
     const std::vector<compute::Device> devices = open_devices(options.device, which.size());
     const app::FrameRange range = app::parse_frames(options.frames);
     const scene::Scene scene = app::load_scene(options);
+    app::take_views_of(scene, options);
     for (const std::string& warning : scene.warnings)
         fmt::print(stderr, "macula: warning: {}\n", warning);
     if (options.variant.empty()) {
@@ -185,10 +187,14 @@ int render_frames(const app::RenderOptions& options) {
             app::print_tuning_warnings(device);
     }
     app::Views views(options, scene);
+    const render::Options engine = app::engine_options(options);
+    std::vector<std::shared_ptr<render::DeviceScene>> on_devices;
+    for (const compute::Device& device : devices)
+        on_devices.push_back(std::make_shared<render::DeviceScene>(device, scene, engine.geometry));
     std::vector<EyeRun> eyes;
     for (std::size_t i = 0; i < which.size(); ++i)
-        eyes.push_back(make_eye(options, devices[std::min(i, devices.size() - 1)], scene, views,
-                                which[i], which.size() == 1));
+        eyes.push_back(make_eye(options, engine, on_devices[std::min(i, devices.size() - 1)], scene,
+                                views, which[i], which.size() == 1));
     for (const std::string& note : eyes.front().renderer.geometry().notes)
         fmt::print(stderr, "macula: {}\n", note);
     const bool json = options.json || (isatty(STDOUT_FILENO) == 0 && !options.hash);

@@ -28,9 +28,10 @@ using scene::Eye;
 } // namespace
 
 void ViewOptions::add_to(CLI::App& command) {
-    command.add_option("--display", display,
-                       "Size and field of view: a name of `macula displays`, "
-                       "or a file .toml or .json");
+    command.add_option(
+        "--display", display,
+        "Size and field of view: a name of `macula displays`, a file .toml or .json, "
+        "or none (default: the scene file's)");
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 640x480)");
     command
         .add_option("--eyes", eyes, "mono, left, right or both (two views, into left/ and right/)")
@@ -38,11 +39,23 @@ void ViewOptions::add_to(CLI::App& command) {
     command.add_option(
         "--gaze", gaze,
         "Where the eyes look: X,Y in degrees to the right and up, pixel:X,Y, target, "
-        "synthetic, FILE.csv or udp:PORT, see docs/gaze.md (default: straight ahead)");
+        "synthetic, FILE.csv, udp:PORT or none, see docs/gaze.md (default: the scene file's, or "
+        "none)");
     command.add_option("--tracker", tracker,
                        "What an eye tracker makes of it, e.g. latency=30,noise=0.5,smooth=40");
     command.add_option("--head", head,
                        "What carries the head: as --path, or a recording FILE.csv on top of it");
+}
+
+void take_views_of(const scene::Scene& scene, ViewOptions& options) {
+    const auto settle = [](std::string& option, const std::optional<std::string>& preferred) {
+        if (option.empty())
+            option = preferred.value_or("none");
+        if (option == "none")
+            option.clear();
+    };
+    settle(options.display, scene.display);
+    settle(options.gaze, scene.gaze);
 }
 
 std::pair<std::uint32_t, std::uint32_t> size_of(const ViewOptions& options, std::uint32_t width,

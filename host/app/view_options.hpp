@@ -22,12 +22,17 @@ namespace macula::app {
 class SceneDepth;
 
 struct ViewOptions {
-    std::string display; // empty: the camera's field of view
+    std::string display; // empty: the scene's; without one, or "none", the camera's field of view
     std::string size;    // WxH; empty: the display's, or 640x480
-    std::string eyes = "mono", gaze, tracker, head;
+    std::string eyes = "mono", tracker, head;
+    std::string gaze; // empty: the scene's; without one, or "none", along the camera's axis
 
     void add_to(CLI::App& command);
 };
+
+/// Display and gaze as the scene file prefers them, where the command line says nothing; "none"
+/// becomes empty.
+void take_views_of(const scene::Scene& scene, ViewOptions& options);
 
 /// --size, or what is given without it: pixels. Throws std::invalid_argument.
 std::pair<std::uint32_t, std::uint32_t> size_of(const ViewOptions& options, std::uint32_t width,

@@ -26,6 +26,14 @@ constexpr std::array kRegions = {
     NamedRegion{"full", kAll, kAll, 1.0f},
 };
 
+// Which of an option's two words it is.
+bool is_first(const char* option, const std::string& value, const char* first, const char* second) {
+    if (value != first && value != second)
+        throw std::invalid_argument(
+            fmt::format("{} \"{}\": {} or {} was expected", option, value, first, second));
+    return value == first;
+}
+
 } // namespace
 
 void parse_frc(const std::string& text, stage::WeierOptions& options) {
@@ -53,6 +61,8 @@ void WeierOptions::add_to(CLI::App& command) {
     command
         .add_option("--support", support, "WxH samples of the support image (a cell: 4.6 pixels)")
         ->group("Method weier");
+    number("--first-frame", first_frame, "Pixels sampled without history: full (all) or sparse");
+    number("--new-parts", new_parts, "What enters the view: sample all of it, or fill it");
     number("--eps-depth", engine.depth_threshold, "Resample beyond this part of the depth");
     number("--eps-lum", engine.luminance_threshold, "Resample beyond this luminance, 0..1");
     number("--eps-edge", engine.edge_threshold, "Resample surfaces below this cosine");
@@ -69,8 +79,6 @@ void WeierOptions::add_to(CLI::App& command) {
         ->group("Method lowres");
     command.add_flag("--no-post", no_post, "No post-processor for area lights and ao")
         ->group("Method weier");
-    command.add_flag("--resample-new", engine.resample_new, "Sample all that enters the view")
-        ->group("Method weier");
     command.add_flag("--jitter", engine.jitter, "Rays through a random point of the pixel")
         ->group("Method weier");
     command.add_flag("--overlay", engine.overlay, "Draw foveal circles and sampled pixels")
@@ -81,6 +89,8 @@ stage::WeierOptions engine_options(const WeierOptions& options) {
     stage::WeierOptions engine = options.engine;
     parse_frc(options.frc, engine);
     engine.post = !options.no_post;
+    engine.first_frame_full = is_first("--first-frame", options.first_frame, "full", "sparse");
+    engine.resample_new = is_first("--new-parts", options.new_parts, "sample", "fill");
     if (!options.support.empty()) {
         int end = 0;
         if (std::sscanf(options.support.c_str(), "%ux%u%n", &engine.support_width,

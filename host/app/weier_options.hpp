@@ -13,7 +13,9 @@ namespace macula::app {
 
 struct WeierOptions {
     std::string frc = "medium", support; // WxH; empty: as in the paper
-    stage::WeierOptions engine;          // but for the two above
+    stage::WeierOptions engine;          // but for what has a member here
+    std::string first_frame = "full";    // or "sparse"
+    std::string new_parts = "sample";    // or "fill"
     bool no_post = false;
     float lowres_scale = 0.46f; // 0..1; by default about as many samples as the medium region
 

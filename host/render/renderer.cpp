@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "host/frame/surfaces.hpp"
-#include "host/kernel/library.hpp"
 #include "host/method/method.hpp"
 
 namespace macula::render {
@@ -76,6 +74,13 @@ scene::Scene views_of(const scene::Scene& scene) {
     return views;
 }
 
+// A setting out of range is refused before the scene is built.
+std::shared_ptr<DeviceScene> checked_scene(const compute::Device& device, const scene::Scene& scene,
+                                           const Options& options) {
+    settings_of(scene, options, 0);
+    return std::make_shared<DeviceScene>(device, scene, options.geometry);
+}
+
 compute::Buffer zeroed_counters(compute::Device& device) {
     const std::array<std::uint64_t, kernel::kRayClasses.size()> zeros{};
     return device.upload(std::span(zeros), "ray counts");
@@ -95,9 +100,11 @@ std::uint64_t FrameReport::total_rays() const {
 }
 
 struct Renderer::State {
-    State(const compute::Device& on, const scene::Scene& scene, const Options& o)
-        : device(on), options(o), views(views_of(scene)), ray_totals(zeroed_counters(device)),
+    State(std::shared_ptr<DeviceScene> shared_scene, const scene::Scene& scene, const Options& o)
+        : on_device(std::move(shared_scene)), device(on_device->device), options(o),
+          views(views_of(scene)), ray_totals(zeroed_counters(device)),
           lights(frame::make_lights(scene, o.lights, o.light_samples)),
+<<<<<<< HEAD
           settings(settings_of(scene, o, lights.size())), geometry(device, scene, o.geometry),
           surfaces(device, scene, geometry.parts()),
           tracer(device, library, geometry, stage::choose_variants(device, o.variant)),
@@ -107,35 +114,44 @@ struct Renderer::State {
                o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
               {o.lights, o.weier, o.lowres_scale})),
           timings(o.warm_up_frames) {
+=======
+          settings(settings_of(scene, o, lights.size())),
+          tracer(device, on_device->library, on_device->geometry,
+                 stage::choose_variants(device, o.variant)),
+          graph(method::find_method(o.method).make({device, on_device->library, on_device->geometry,
+                                                    on_device->surfaces, tracer, o.width, o.height,
+                                                    lights, settings.ambient_occlusion_samples,
+                                                    has_highlights(scene), ray_totals},
+                                                   {o.lights, o.weier, o.lowres_scale})),
+          timings(o.warm_up_frames), begun(on_device->frames()) {
+>>>>>>> 4d96385e983b5176b5351535e9287d5ecfa8cd19
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.insert("colour");
         graph.compile(device, outputs);
     }
 
+    std::shared_ptr<DeviceScene> on_device;
     compute::Device device;
     Options options;
     scene::Scene views;
-    kernel::Library library;
     compute::Buffer ray_totals;
     std::vector<shared::Light> lights;
     frame::FrameSettings settings;
-    frame::DeviceGeometry geometry;
-    frame::DeviceSurfaces surfaces;
     stage::Tracer tracer;
     frame::Graph graph;
     frame::Timings timings;
     std::optional<shared::Camera> last_camera;
+    std::uint64_t begun;     // frames, as DeviceScene counts them
     std::uint32_t frame = 0; // of start()
     std::chrono::steady_clock::time_point start;
     std::array<std::uint64_t, kernel::kRayClasses.size()> last_rays{};
-    std::vector<scene::Transform> transforms;
-    // Frames for which the transforms must still be set: the one in which something moved, and the
-    // one after it, whose last frame's transforms are then its own.
-    int frames_to_place = 0;
 };
 
 Renderer::Renderer(const compute::Device& device, const scene::Scene& scene, const Options& options)
-    : state_(std::make_unique<State>(device, scene, options)) {}
+    : Renderer(checked_scene(device, scene, options), scene, options) {}
+Renderer::Renderer(std::shared_ptr<DeviceScene> on_device, const scene::Scene& scene,
+                   const Options& options)
+    : state_(std::make_unique<State>(std::move(on_device), scene, options)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -157,10 +173,7 @@ void Renderer::start(std::uint32_t frame, const scene::Camera& view, const frame
     const shared::Camera camera = frame::make_camera(view, tangents);
     const shared::FrameParams params =
         frame::make_params(s.settings, frame, camera, s.last_camera, gaze);
-    if (s.frames_to_place > 0) {
-        s.geometry.set_transforms(s.transforms);
-        --s.frames_to_place;
-    }
+    s.on_device->begin_frame(++s.begun);
     s.last_camera = camera;
 
     s.device.finish();
@@ -218,8 +231,7 @@ std::string Renderer::hash() const {
 }
 
 void Renderer::set_transforms(std::span<const scene::Transform> world_from_object) {
-    state_->transforms.assign(world_from_object.begin(), world_from_object.end());
-    state_->frames_to_place = 2;
+    state_->on_device->set_transforms(world_from_object);
 }
 
 void Renderer::reset() {
@@ -236,7 +248,7 @@ const frame::Timings& Renderer::timings() const {
 }
 
 const frame::GeometryStatistics& Renderer::geometry() const {
-    return state_->geometry.statistics();
+    return state_->on_device->geometry.statistics();
 }
 
 std::string Renderer::variant(kernel::RayClass ray_class) const {

@@ -22,6 +22,7 @@
 #include "host/frame/lights.hpp"
 #include "host/frame/timings.hpp"
 #include "host/kernel/variants.hpp"
+#include "host/render/device_scene.hpp"
 #include "host/stage/foveated.hpp"
 #include "scenes/scene.hpp"
 
@@ -42,9 +43,9 @@ struct Options {
     std::optional<frame::Tangents> tangents;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
-    stage::WeierOptions weier;  // of method "weier"
-    float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
-    frame::GeometryOptions geometry;
+    stage::WeierOptions weier;       // of method "weier"
+    float lowres_scale = 0.46f;      // of method "lowres": part of the pixels along each axis, 0..1
+    frame::GeometryOptions geometry; // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };
 
@@ -81,6 +82,10 @@ class Renderer {
     // The scene must have passed validate(); it may be destroyed afterwards. Throws
     // std::invalid_argument for an option out of range and the device's errors.
     Renderer(const compute::Device& device, const scene::Scene& scene, const Options& options = {});
+    // The same for a scene that is on a device already, and stays there while a renderer uses it.
+    // Renderers that share one render each frame in turn. `scene`: the one that it was made from.
+    Renderer(std::shared_ptr<DeviceScene> on_device, const scene::Scene& scene,
+             const Options& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -103,6 +108,7 @@ class Renderer {
 
     // Places the scene's instances anew for the next frame: one transform each. That frame's
     // render() throws std::invalid_argument as frame::DeviceGeometry::set_transforms does.
+    // Renderers that share a scene move it for one another.
     void set_transforms(std::span<const scene::Transform> world_from_object);
     // Forgets the last frame: its camera and the method's history.
     void reset();

@@ -90,6 +90,7 @@ shared::WeierParams make_params(const WeierOptions& o, std::uint32_t width, std:
     p.edge_threshold = o.edge_threshold;
     p.stretch_threshold = o.stretch_threshold;
     p.resample_new = o.resample_new ? 1 : 0;
+    p.first_frame_full = o.first_frame_full ? 1 : 0;
     p.merge_threshold = o.merge_threshold;
     p.filter_samples = o.filter_samples;
     p.log2_k_min = std::log2(o.k_min);

@@ -23,7 +23,10 @@ struct WeierOptions {
     // Edge: a cosine, 0..1. Stretch: pixels now for a pixel then, above 1.
     float depth_threshold = 0.1f, luminance_threshold = 0.45f, edge_threshold = 0.05f,
           stretch_threshold = 2.0f;
-    bool resample_new = false; // sample what enters the view rather than fill it
+    bool resample_new = true; // sample what enters the view; false: fill it, as section 3.3 does
+    // Without history (the first frame, after a cut) every pixel is sampled; false: as in any other
+    // frame, the rest filled from the support image.
+    bool first_frame_full = true;
     // Of section 3.4. Depth: part of it, above 0. Weights: 0 < k_min <= k_max <= 1.
     // Frames: 2..2^19.
     float merge_threshold = 0.05f, k_min = 0.1f, k_max = 0.8f;

@@ -104,17 +104,18 @@ static inline int16 on_support_grid(global const uint* columns, global const uin
     return (four_rows(column) != MACULA_NO_CELL) & (four_columns(row) != MACULA_NO_CELL);
 }
 
-/* Lanes that the resampling info wants; `keys`: of reproject/mesh.cl, or null in methods without.
- */
+/* Lanes that the resampling info wants, and all of them where there is no history to show: a first
+ * frame, or the one after a cut. `keys`: of reproject/mesh.cl. */
 static inline int16 to_resample(global const uint* keys, global const uint* history,
                                 global const WeierParams* weier, uint x0, uint y0) {
+    if (*history == 0u)
+        return (int16)(weier->first_frame_full != 0u ? -1 : 0);
     const global uint* first = keys + y0 * weier->pitch + x0;
     const uint16 key =
         (uint16)(vload4(0, first), vload4(0, first + weier->pitch),
                  vload4(0, first + 2u * weier->pitch), vload4(0, first + 3u * weier->pitch));
-    const int16 missing = *history != 0u ? (key == MACULA_NO_KEY) : (int16)(-1);
-    const int16 marked = (key & 1u) != 0u;
-    return (marked & ~missing) | (weier->resample_new != 0u ? missing : (int16)(0));
+    const int16 marked = (key & 1u) != 0u; /* MACULA_NO_KEY, too */
+    return marked & ((key != MACULA_NO_KEY) | (int16)(weier->resample_new != 0u ? -1 : 0));
 }
 
 /* One work-item a packet. masks: bit n of the lower half: lane n is sampled; of the upper half: the

@@ -82,6 +82,6 @@
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \
     MEMBER(WeierParams, depth_bits)                                                                \
-    MEMBER(WeierParams, filter_tries)
+    MEMBER(WeierParams, first_frame_full)
 
 #endif

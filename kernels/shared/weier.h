@@ -33,13 +33,14 @@ typedef struct WeierParams {
     float luminance_threshold; /* eps_lum: difference of luminances, each clamped to [0, 1] */
     float edge_threshold;      /* of edge_t, a cosine */
     float stretch_threshold;   /* ratio of lengths */
-    uint resample_new;         /* 1: pixels without history are sampled rather than filled */
+    uint resample_new;         /* 1: what enters the view is sampled rather than filled */
     float merge_threshold;     /* eps of section 3.4: part of the depth */
     uint filter_samples;       /* in a footprint of several texels (section 3.2) */
     float log2_k_min, log2_k_slope, k_max; /* k_t = min(2^(min + slope (dt - 1)), k_max) */
     uint filter_window;                    /* pixels: how far section 3.5 looks */
     uint filter_tries;                     /* n of section 3.5 */
-    uint pad[2];
+    uint first_frame_full;                 /* 1: without history every pixel is sampled */
+    uint pad[1];
 } WeierParams;
 MACULA_ASSERT_SIZE(WeierParams, 96);
 

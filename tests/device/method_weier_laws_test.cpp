@@ -96,6 +96,48 @@ TEST_P(EachMode, ATeleportForgetsTheHistoryByItself) {
     EXPECT_TRUE(same_bits(jumping.read<Float4>("colour"), fresh.read<Float4>("colour")));
 }
 
+// Without history there is nothing to reconstruct from.
+TEST_P(EachMode, AFrameWithoutHistoryIsMethodFullBitForBit) {
+    WeierSetup setup;
+    setup.lights = GetParam();
+    setup.outputs = {"history kept", "list length"};
+    setup.weier.r0 = 4.0f;
+    setup.weier.r1 = 8.0f;
+    WeierFrames foveated(device(), cornell(), setup);
+    setup.method = "full";
+    setup.outputs = {};
+    WeierFrames full(device(), cornell(), setup);
+    scene::Camera elsewhere = cornell().cameras.front();
+    std::swap(elsewhere.eye, elsewhere.target);
+    const scene::Camera views[] = {cornell().cameras.front(), cornell().cameras.front(), elsewhere,
+                                   elsewhere};
+    const std::uint32_t pixels = setup.width * setup.height;
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        foveated.run(frame, views[frame]);
+        full.run(frame, views[frame]);
+        const bool first = frame % 2 == 0;
+        EXPECT_EQ(foveated.read<std::uint32_t>("history kept")[0], first ? 0u : 1u) << frame;
+        const std::uint32_t sampled = foveated.read<std::uint32_t>("list length")[0];
+        if (first) {
+            EXPECT_EQ(sampled, pixels) << frame;
+            EXPECT_TRUE(same_bits(foveated.read<Float4>("colour"), full.read<Float4>("colour")))
+                << frame;
+        } else {
+            EXPECT_LT(sampled, pixels * 2 / 3) << frame;
+        }
+    }
+}
+
+TEST_P(EachMode, ASparseFirstFrameSpreadsItsCost) {
+    WeierSetup setup;
+    setup.lights = GetParam();
+    setup.outputs = {"list length"};
+    setup.weier.first_frame_full = false;
+    WeierFrames frames(device(), cornell(), setup);
+    frames.run(0, cornell().cameras.front());
+    EXPECT_LT(frames.read<std::uint32_t>("list length")[0], setup.width * setup.height / 2);
+}
+
 TEST_P(EachMode, WhatIsNotANumberIsGoneWithinAFrame) {
     WeierSetup setup;
     setup.lights = GetParam();
@@ -137,6 +179,7 @@ TEST(StillView, ConvergesToTheReference) {
     setup.weier.r0 = 4.0f;
     setup.weier.r1 = 8.0f;
     setup.weier.p_min = 0.2f;
+    setup.weier.first_frame_full = false; // else there is nothing to converge
     WeierFrames foveated(device(), cornell(), setup);
     setup.method = "full";
     WeierFrames full(device(), cornell(), setup);
@@ -152,12 +195,25 @@ TEST(StillView, ConvergesToTheReference) {
     EXPECT_LT(last, 1e-4);
 }
 
+// Point lights have no noise: what was sampled once stays as it is.
+TEST(StillView, KeepsItsFullFirstFrame) {
+    WeierSetup setup;
+    WeierFrames foveated(device(), cornell(), setup);
+    foveated.run(0, cornell().cameras.front());
+    const auto first = foveated.read<Float4>("colour");
+    for (std::uint32_t frame = 1; frame < 6; ++frame) {
+        foveated.run(frame, cornell().cameras.front());
+        EXPECT_TRUE(same_bits(foveated.read<Float4>("colour"), first)) << frame;
+    }
+}
+
 TEST(StillView, ConvergesUnderAreaLightsUntilTheWeightLimit) {
     WeierSetup setup;
     setup.lights = LightMode::area;
     setup.weier.r0 = setup.weier.r1 = 0.0f;
     setup.weier.p_min = 0.5f;
     setup.weier.luminance_threshold = 1.0f;
+    setup.weier.first_frame_full = false;
     WeierFrames foveated(device(), cornell(), setup);
     setup.method = "full";
     setup.samples = 1024;

@@ -33,6 +33,8 @@ WeierSetup dk2() {
     setup.height = 1464;
     setup.tangents = frame::Tangents{1.0586f, 1.0924f, 1.3299f, 1.3299f};
     setup.outputs = {"sampling", "list length"};
+    // So that one frame shows what the foveal function and the support grid choose by themselves.
+    setup.weier.first_frame_full = false;
     return setup;
 }
 
@@ -76,6 +78,16 @@ TEST(Dk2, MediumSamplesThePapersPartOfThePixels) {
     WeierFrames alone(device(), wall(), setup);
     alone.run(0, wall().cameras.front());
     EXPECT_NEAR(part_sampled(alone, setup), 0.089, 0.001);
+}
+
+TEST(Dk2, TheSecondFrameIsSparseAgain) {
+    WeierSetup setup = dk2();
+    setup.weier.first_frame_full = true;
+    WeierFrames frames(device(), wall(), setup);
+    frames.run(0, wall().cameras.front());
+    EXPECT_EQ(part_sampled(frames, setup), 1.0);
+    frames.run(1, wall().cameras.front());
+    EXPECT_NEAR(part_sampled(frames, setup), 0.132, 0.001);
 }
 
 TEST(Dk2, TheProbabilityFollowsFigure3) {

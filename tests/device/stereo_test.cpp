@@ -77,6 +77,88 @@ TEST(Stereo, TwoDevicesAtOnceGiveTheBitsOfOneInTurns) {
     EXPECT_NE(one[0], one[1]) << "the eyes see different pictures";
 }
 
+// Two renderers of one device scene give the bits of two with a scene each, and the scene lies in
+// memory once.
+TEST(Stereo, TwoViewsShareTheSceneAndKeepTheirBits) {
+    const compute::Device device = compute::open();
+    const scene::Display display = scene::find_display("dk2");
+    const scene::Scene scene = scene::load("whitted");
+    render::Options of_left = options_of(display, Eye::left),
+                    of_right = options_of(display, Eye::right);
+    of_left.method = of_right.method = "weier";
+    const auto rendered = [&](render::Renderer& left, render::Renderer& right) {
+        std::vector<std::string> hashes;
+        for (std::uint32_t frame = 0; frame < 3; ++frame) {
+            for (render::Renderer* view : {&left, &right}) {
+                view->render(10 * frame);
+                hashes.push_back(view->hash());
+            }
+        }
+        return hashes;
+    };
+    std::vector<std::string> apart, together;
+    std::uint64_t bytes_apart = 0, bytes_together = 0, bytes_of_scene = 0;
+    const std::uint64_t before = device.allocated_bytes();
+    {
+        render::Renderer left(device, scene, of_left);
+        left.render(0);
+        const std::uint64_t one = device.allocated_bytes() - before;
+        left.reset();
+        render::Renderer right(device, scene, of_right);
+        apart = rendered(left, right);
+        bytes_apart = device.allocated_bytes() - before;
+        EXPECT_EQ(bytes_apart, 2 * one);
+    }
+    EXPECT_EQ(device.allocated_bytes(), before);
+    {
+        auto shared = std::make_shared<render::DeviceScene>(device, scene);
+        bytes_of_scene = device.allocated_bytes() - before;
+        render::Renderer left(shared, scene, of_left), right(shared, scene, of_right);
+        shared.reset(); // the views keep it
+        together = rendered(left, right);
+        bytes_together = device.allocated_bytes() - before;
+    }
+    EXPECT_EQ(device.allocated_bytes(), before);
+    EXPECT_EQ(together, apart);
+    // What traversal lays out at its first ray is shared, too.
+    EXPECT_GT(bytes_of_scene, 100000u);
+    EXPECT_LE(bytes_together, bytes_apart - bytes_of_scene);
+}
+
+// Something that moves has moved once for both eyes, whoever renders first.
+TEST(Stereo, TwoViewsOfAMovingSceneSeeTheSameMotion) {
+    const compute::Device device = compute::open();
+    const scene::Scene& scene = cornell();
+    render::Options options;
+    options.width = options.height = 48;
+    options.images = {"motion"};
+    options.geometry.merge_static = false;
+    std::vector<scene::Transform> moved;
+    for (const scene::Instance& instance : scene.instances) {
+        moved.push_back(instance.world_from_object);
+        moved.back().row[0].w += 0.05f;
+    }
+    const auto motion_of = [](const render::Renderer& view) {
+        const render::Image image = view.map("motion");
+        return std::vector<std::uint32_t>(image.words.begin(), image.words.end());
+    };
+    render::Renderer alone(device, scene, options);
+    const auto shared = std::make_shared<render::DeviceScene>(device, scene, options.geometry);
+    render::Renderer left(shared, scene, options), right(shared, scene, options);
+    for (std::uint32_t frame = 0; frame < 4; ++frame) {
+        if (frame == 1) {
+            alone.set_transforms(moved);
+            right.set_transforms(moved);
+        }
+        for (render::Renderer* view : {&alone, &left, &right})
+            view->render(0);
+        EXPECT_EQ(left.hash(), alone.hash()) << frame;
+        EXPECT_EQ(right.hash(), alone.hash()) << frame;
+        EXPECT_EQ(motion_of(left), motion_of(alone)) << frame;
+        EXPECT_EQ(motion_of(right), motion_of(alone)) << frame;
+    }
+}
+
 TEST(Stereo, AnEyeHasTheHistoryOfItsOwnView) {
     const compute::Device device = compute::open();
     const scene::Display display = scene::find_display("dk2");

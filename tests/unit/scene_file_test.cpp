@@ -99,6 +99,21 @@ textures = false
     EXPECT_FLOAT_EQ(scene.materials[0].alpha_cutoff, 0.25f);
 }
 
+TEST_F(SceneFile, DisplayAndGazeFilesAreFoundBesideIt) {
+    write("looks.csv", "time_ns,x,y,z\n0,0,0,-1\n");
+    write("mine.json", R"({"width": 4, "height": 3, "screen": {"width_mm": 400, "distance_mm": 600}})");
+    const std::string trace = "trace:" + path("looks.csv");
+    EXPECT_EQ(load_toml(kFile + "gaze = 'looks.csv'\n").gaze, trace);
+    EXPECT_EQ(load_toml(kFile + "gaze = 'looks.csv:repeat'\n").gaze, trace + ":repeat");
+    EXPECT_EQ(load_toml(kFile + "gaze = 'trace:looks.csv'\n").gaze, trace);
+    EXPECT_EQ(load_toml(kFile + "gaze = 'synthetic:seed=2'\n").gaze, "synthetic:seed=2");
+    EXPECT_EQ(load_toml(kFile + "display = 'mine.json'\n").display, path("mine.json"));
+    // Where the file lies counts, not where the outer one does.
+    write("inner/other.csv", "time_ns,x,y,z\n0,0,0,-1\n");
+    write("inner/s.toml", "procedural = 'cornell'\ngaze = 'other.csv'\n");
+    EXPECT_EQ(load_toml("file = 'inner/s.toml'\n").gaze, "trace:" + path("inner/other.csv"));
+}
+
 TEST_F(SceneFile, UpAxesTurnRightHanded) {
     write("part.obj", "v 0 0 0\nv 1 2 3\nv 1 2 0\nf 1 2 3\n");
     EXPECT_EQ(load_toml(kFile + "up = 'z'\n").meshes[0].positions[1], glm::vec3(2, 3, 1));
@@ -122,6 +137,9 @@ TEST_F(SceneFile, ErrorsGiveFileLineAndKey) {
         {"up = 'w'\n", ":2: key 'up': 'w' is none of: y, z, x"},
         {"seed = 1\n", ":2: key 'seed': only procedural"},
         {"procedural = 'cornell'\n", ":1: key 'file': exactly one"},
+        {"display = 'dk9'\n", ":2: key 'display': there is no display \"dk9\""},
+        {"display = 'gone.toml'\n", ":2: key 'display': 'gone.toml' is in none of"},
+        {"gaze = 'gone.csv'\n", ":2: key 'gaze': 'gone.csv' is in none of"},
         {"light = 1\n", ":2: key 'light': tables [[light]]"},
         {"[[light]]\n", ":2: key 'position': it is missing"},
         {"[[light]]\nposition = [0, 0, 0]\nwatts = 3\n", ":4: key 'watts': there is no such key"},

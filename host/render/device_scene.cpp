@@ -1,0 +1,24 @@
+#include "host/render/device_scene.hpp"
+
+namespace macula::render {
+
+DeviceScene::DeviceScene(const compute::Device& on, const scene::Scene& scene,
+                         const frame::GeometryOptions& options)
+    : device(on), geometry(device, scene, options), surfaces(device, scene, geometry.parts()) {}
+
+void DeviceScene::set_transforms(std::span<const scene::Transform> world_from_object) {
+    transforms_.assign(world_from_object.begin(), world_from_object.end());
+    frames_to_place_ = 2;
+}
+
+void DeviceScene::begin_frame(std::uint64_t count) {
+    if (count <= frames_)
+        return;
+    if (frames_to_place_ > 0) {
+        geometry.set_transforms(transforms_);
+        --frames_to_place_;
+    }
+    frames_ = count;
+}
+
+} // namespace macula::render

@@ -1,0 +1,98 @@
+// `macula render` as a program: what a scene file asks for, what the command line overrides.
+#include <cstdio>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/scene_folder.hpp"
+
+namespace macula::scene {
+namespace {
+
+using testing::HasSubstr;
+
+class RenderProgram : public SceneFolder {
+  protected:
+    struct Ended {
+        int code;
+        std::string text; // standard output and errors
+    };
+
+    // Runs `macula render s.toml ARGUMENTS`.
+    Ended render(const std::string& arguments) const {
+        const std::string command = "'" MACULA_PROGRAM "' render '" + path("s.toml") +
+                                    "' --format png --out '" + path("out") + "' " + arguments +
+                                    " 2>&1";
+        FILE* pipe = popen(command.c_str(), "r");
+        Ended ended{-1, {}};
+        char buffer[4096];
+        while (pipe != nullptr && fgets(buffer, sizeof buffer, pipe) != nullptr)
+            ended.text += buffer;
+        ended.code = pipe != nullptr ? WEXITSTATUS(pclose(pipe)) : -1;
+        return ended;
+    }
+
+    // The JSON line of the last frame.
+    nlohmann::json frame_of(const std::string& arguments) const {
+        const Ended ended = render("--json " + arguments);
+        EXPECT_EQ(ended.code, 0) << ended.text;
+        const std::size_t line = ended.text.rfind('{', ended.text.rfind("\"frame\""));
+        return nlohmann::json::parse(ended.text.substr(line == std::string::npos ? 0 : line));
+    }
+
+    // "WxH" from the header of the picture.
+    std::string size_of_picture(const std::string& file = "out/frame_0000.png") const {
+        std::ifstream in(path(file), std::ios::binary);
+        unsigned char head[24] = {};
+        in.read(reinterpret_cast<char*>(head), sizeof head);
+        const auto number = [&](int at) {
+            return std::to_string(head[at] << 24 | head[at + 1] << 16 | head[at + 2] << 8 |
+                                  head[at + 3]);
+        };
+        return number(16) + "x" + number(20);
+    }
+};
+
+constexpr const char* kTiny =
+    R"({"width": 40, "height": 30, "screen": {"width_mm": 400, "distance_mm": 600}})";
+
+TEST_F(RenderProgram, TakesDisplayAndGazeFromTheSceneFile) {
+    write("tiny.json", kTiny);
+    write("s.toml", "procedural = 'cornell'\ndisplay = 'tiny.json'\ngaze = '10,-5'\n");
+    const auto frame = frame_of("");
+    EXPECT_EQ(size_of_picture(), "40x30");
+    EXPECT_NEAR(frame["gaze"]["degrees"][0].get<double>(), 10.0, 1e-6);
+    EXPECT_NEAR(frame["gaze"]["degrees"][1].get<double>(), -5.0, 1e-6);
+    // Only a display has two eyes.
+    EXPECT_EQ(render("--eyes both").code, 0);
+    EXPECT_EQ(size_of_picture("out/right/frame_0000.png"), "40x30");
+}
+
+TEST_F(RenderProgram, TheCommandLineOverridesTheSceneFile) {
+    write("tiny.json", kTiny);
+    write("s.toml", "procedural = 'cornell'\ndisplay = 'tiny.json'\ngaze = '10,-5'\n");
+    EXPECT_NEAR(frame_of("--gaze 3,4")["gaze"]["degrees"][0].get<double>(), 3.0, 1e-6);
+    EXPECT_EQ(size_of_picture(), "40x30");
+    EXPECT_FALSE(frame_of("--gaze none --size 20x16").contains("gaze"));
+    EXPECT_EQ(size_of_picture(), "20x16");
+    const auto of_display = frame_of("--display none --size 40x30");
+    const auto plain = frame_of("--display none --gaze none --size 40x30");
+    EXPECT_EQ(of_display["hash"], plain["hash"]) << "method full does not look at the gaze";
+    EXPECT_NE(frame_of("")["hash"], plain["hash"]) << "the display has another field of view";
+}
+
+TEST_F(RenderProgram, NamesTheOptionThatIsWrong) {
+    write("s.toml", "procedural = 'cornell'\n");
+    EXPECT_THAT(render("--method weier --first-frame half").text,
+                HasSubstr("--first-frame \"half\": full or sparse was expected"));
+    EXPECT_THAT(render("--method weier --new-parts no").text, HasSubstr("--new-parts \"no\""));
+    EXPECT_THAT(render("--display dk9").text, HasSubstr("there is no display \"dk9\""));
+    EXPECT_THAT(render("--eyes both").text, HasSubstr("--eyes \"both\""));
+    EXPECT_THAT(render("--tracker latency=10").text, HasSubstr("--tracker \"latency=10\""));
+}
+
+} // namespace
+} // namespace macula::scene
