@@ -104,27 +104,15 @@ struct Renderer::State {
         : on_device(std::move(shared_scene)), device(on_device->device), options(o),
           views(views_of(scene)), ray_totals(zeroed_counters(device)),
           lights(frame::make_lights(scene, o.lights, o.light_samples)),
-<<<<<<< HEAD
-          settings(settings_of(scene, o, lights.size())), geometry(device, scene, o.geometry),
-          surfaces(device, scene, geometry.parts()),
-          tracer(device, library, geometry, stage::choose_variants(device, o.variant)),
-          graph(method::find_method(o.method).make(
-              {device, library, geometry, surfaces, tracer, o.width, o.height, lights,
-               settings.ambient_occlusion_samples, has_highlights(scene), ray_totals,
-               o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
-              {o.lights, o.weier, o.lowres_scale})),
-          timings(o.warm_up_frames) {
-=======
           settings(settings_of(scene, o, lights.size())),
           tracer(device, on_device->library, on_device->geometry,
                  stage::choose_variants(device, o.variant)),
-          graph(method::find_method(o.method).make({device, on_device->library, on_device->geometry,
-                                                    on_device->surfaces, tracer, o.width, o.height,
-                                                    lights, settings.ambient_occlusion_samples,
-                                                    has_highlights(scene), ray_totals},
-                                                   {o.lights, o.weier, o.lowres_scale})),
+          graph(method::find_method(o.method).make(
+              {device, on_device->library, on_device->geometry, on_device->surfaces, tracer,
+               o.width, o.height, lights, settings.ambient_occlusion_samples, has_highlights(scene),
+               ray_totals, o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
+              {o.lights, o.weier, o.lowres_scale})),
           timings(o.warm_up_frames), begun(on_device->frames()) {
->>>>>>> 4d96385e983b5176b5351535e9287d5ecfa8cd19
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.insert("colour");
         graph.compile(device, outputs);

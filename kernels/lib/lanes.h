@@ -61,6 +61,7 @@ MACULA_SHARED_END
 
 #else /* sixteen */
 
+#include "lib/random_vector.h"
 #include "lib/simd.h"
 
 typedef float16 Real;
@@ -74,7 +75,6 @@ typedef struct Real3 {
 #define MACULA_WIDTH 16
 #define VECTOR3 Real3
 #define VECTOR_MASK int16
-#include "lib/random_functions.h"
 #include "lib/vector_functions.h"
 #undef MACULA_WIDTH
 #undef VECTOR3
