@@ -28,8 +28,9 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
                          std::uint32_t light_bytes) {
     frame::Stage stage;
     stage.name = "update and merge the cache";
-    stage.reads = {"mesh vertices", "pixel keys",     "history kept",  "sampling masks",
-                   "support image", "sampled colour", "surface depth", "list offsets"};
+    stage.reads = {"mesh vertices",  "mesh cells",     "pixel keys",
+                   "history kept",   "sampling masks", "support image",
+                   "sampled colour", "surface depth",  "list offsets"};
     stage.reads_last = {kit.image, "cache info"};
     stage.writes = {per_pixel(kit.kit, kit.image, 16), per_pixel(kit.kit, "cache info", 8),
                     per_pixel(kit.kit, "reprojected colour", 16)};
@@ -48,12 +49,12 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
             const SupportGrid& grid = *kit.grid;
             kernel
                 .set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
-                     run["mesh vertices"], run["pixel keys"], run["history kept"],
-                     run["sampling masks"], run["list offsets"], run.last(kit.image),
-                     run.last("cache info"), lit ? run.last(light) : none, run["support image"],
-                     run["sampled colour"], run["surface depth"], lit ? run["sampled light"] : none,
-                     run[kit.image], run["cache info"], lit ? run[light] : none,
-                     run["reprojected colour"])
+                     run["mesh vertices"], run["mesh cells"], run["pixel keys"],
+                     run["history kept"], run["sampling masks"], run["list offsets"],
+                     run.last(kit.image), run.last("cache info"), lit ? run.last(light) : none,
+                     run["support image"], run["sampled colour"], run["surface depth"],
+                     lit ? run["sampled light"] : none, run[kit.image], run["cache info"],
+                     lit ? run[light] : none, run["reprojected colour"])
                 .launch(name, {kit.packets()}, {kGroup});
         };
     };

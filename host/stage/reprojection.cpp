@@ -1,14 +1,26 @@
 #include "host/stage/reprojection.hpp"
 
 #include "lib/camera.h"
+#include "lib/mesh_cells.h"
 
 namespace macula::stage {
 namespace {
 
 constexpr std::size_t kJudges = 64; // work-items of the one group that judges the history
+// Groups of items that are sixteen samples or cells, and of items that are tiles of the screen.
+constexpr std::size_t kRowGroup = 8, kTileGroup = 2;
 
-std::size_t support_range(const FoveatedKit& kit) {
-    return compute::Range::cover(kit.grid->samples(), kGroup);
+std::uint64_t blocks(const FoveatedKit& kit) {
+    return shared::cell_blocks(kit.grid->params().support_width, kit.grid->params().support_height);
+}
+
+std::uint32_t key_rows(const FoveatedKit& kit) {
+    return shared::tiles_across(kit.kit.height) * MACULA_TILE;
+}
+
+// Tables of lib/mesh_cells.h, field by field for blocks of cells.
+frame::Resource per_cell(const FoveatedKit& kit, const std::string& name, std::uint32_t fields) {
+    return {name, 4, blocks(kit) * MACULA_CELL_LANES * fields};
 }
 
 } // namespace
@@ -28,7 +40,7 @@ frame::Stage project_mesh(const FoveatedKit& kit) {
                 .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
                      grid.mesh_columns, grid.mesh_rows, run.last("support geometry"),
                      run["mesh vertices"])
-                .launch(name, {support_range(kit)}, {kGroup});
+                .launch(name, {compute::Range::cover(blocks(kit), kRowGroup)}, {kRowGroup});
         };
     };
     return stage;
@@ -39,20 +51,35 @@ frame::Stage draw_mesh(const FoveatedKit& kit) {
     stage.name = "detect errors and draw the mesh";
     stage.reads = {"mesh vertices"};
     stage.reads_last = {"support geometry", "support image"};
-    const std::uint64_t rows = std::uint64_t{shared::tiles_across(kit.kit.height)} * MACULA_TILE;
+    const std::uint64_t pitch = kit.grid->params().pitch;
     stage.writes = {kit.per_support("resampling info", 4),
-                    {"pixel keys", 4, kit.grid->params().pitch * rows}};
-    stage.prepare = [kit, name = stage.name] {
+                    per_cell(kit, "mesh cells", MACULA_CELL_FIELDS),
+                    {"pixel keys", 4, pitch * key_rows(kit)}};
+    stage.scratch = {per_cell(kit, "cell outlines", MACULA_OUTLINE_FIELDS),
+                     per_cell(kit, "second outlines", MACULA_OUTLINE_FIELDS),
+                     {"cell bounds", 4,
+                      std::uint64_t{shared::bounds_pitch(kit.grid->params().support_width,
+                                                         kit.grid->params().support_height)} *
+                          MACULA_BOUNDS_FIELDS}};
+    stage.prepare = [kit, pitch, name = stage.name] {
         kit.grid->prepare(kit.kit);
-        auto draw = kit.kit.library.kernel(kernel::VariantKey("reproject/mesh"), "draw_mesh",
+        auto prepare = kit.kit.library.kernel(kernel::VariantKey("reproject/cells"),
+                                              "prepare_cells", kit.kit.device);
+        auto draw = kit.kit.library.kernel(kernel::VariantKey("reproject/draw"), "draw_mesh",
                                            kit.kit.device);
-        return [kit, name, draw](frame::Run& run) mutable {
+        const std::uint64_t tiles = pitch / MACULA_DRAWN_TILE * (key_rows(kit) / MACULA_DRAWN_TILE);
+        return [kit, tiles, name, prepare, draw](frame::Run& run) mutable {
             const SupportGrid& grid = *kit.grid;
-            run["pixel keys"].fill(MACULA_NO_KEY);
-            draw.set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
+            prepare
+                .set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
                      run.last("support geometry"), run.last("support image"), run["mesh vertices"],
-                     run["resampling info"], run["pixel keys"])
-                .launch(name, {support_range(kit)}, {kGroup});
+                     run["resampling info"], run["mesh cells"], run.scratch("cell outlines"),
+                     run.scratch("second outlines"), run.scratch("cell bounds"))
+                .launch(name, {compute::Range::cover(blocks(kit), kRowGroup)}, {kRowGroup});
+            draw.set(grid.params_buffer, run.scratch("cell outlines"),
+                     run.scratch("second outlines"), run.scratch("cell bounds"), key_rows(kit),
+                     run["pixel keys"])
+                .launch(name, {compute::Range::cover(tiles, kTileGroup)}, {kTileGroup});
         };
     };
     return stage;

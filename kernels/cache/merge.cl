@@ -2,9 +2,9 @@
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
 #include "cache/light_value.h"
+#include "cache/texels.h"
 #include "lib/cache_info.h"
 #include "lib/camera.h"
-#include "lib/reprojection_packet.h"
 
 /* Last frame's images. */
 typedef struct Past {
@@ -20,40 +20,6 @@ typedef struct Cache {
     float rho;  /* 0: the colour is a guess */
     uint touch; /* of lib/cache_info.h */
 } Cache;
-
-/* The four texels around a place, as indices, and how far it is from the first one. */
-typedef struct Texels {
-    uint index[4][16];
-    float to_x[16], to_y[16];
-    uint nearest[16];
-} Texels;
-
-/* Places are counted in 1/256 of a pixel, as texture units do: a place within 1/512 of a texel's
- * middle is that texel exactly, so that nothing drifts while the view stands still. */
-static inline void find_texels(const HistoryPacket* history, uint width, uint height, Texels* t) {
-    const int16 x = convert_int16(rint(fma(history->x, (float16)(256.0f), (float16)(-128.0f))));
-    const int16 y = convert_int16(rint(fma(history->y, (float16)(256.0f), (float16)(-128.0f))));
-    const int16 right = (int16)((int)width - 1), bottom = (int16)((int)height - 1);
-    const int16 x0 = clamp(x >> 8, (int16)(0), right), x1 = clamp((x >> 8) + 1, (int16)(0), right);
-    const int16 y0 = clamp(y >> 8, (int16)(0), bottom) * (int)width;
-    const int16 y1 = clamp((y >> 8) + 1, (int16)(0), bottom) * (int)width;
-    vstore16(as_uint16(y0 + x0), 0, t->index[0]);
-    vstore16(as_uint16(y0 + x1), 0, t->index[1]);
-    vstore16(as_uint16(y1 + x0), 0, t->index[2]);
-    vstore16(as_uint16(y1 + x1), 0, t->index[3]);
-    vstore16(convert_float16(x & 255) * 0x1p-8f, 0, t->to_x);
-    vstore16(convert_float16(y & 255) * 0x1p-8f, 0, t->to_y);
-    const int16 near_x = (x & 255) >= 128 ? x1 : x0, near_y = (y & 255) >= 128 ? y1 : y0;
-    vstore16(as_uint16(near_y + near_x), 0, t->nearest);
-}
-
-static inline float4 bilinear(global const float4* image, const Texels* t, uint lane) {
-    const float4 a = image[t->index[0][lane]], b = image[t->index[1][lane]];
-    const float4 c = image[t->index[2][lane]], d = image[t->index[3][lane]];
-    const float4 top = fma(b - a, (float4)(t->to_x[lane]), a);
-    const float4 bottom = fma(d - c, (float4)(t->to_x[lane]), c);
-    return fma(bottom - top, (float4)(t->to_y[lane]), top);
-}
 
 /* A footprint of several texels is sampled at normally distributed places (section 3.2). */
 static inline float4 filtered_colour(global const float4* image, const MeshTables* mesh,
@@ -140,11 +106,139 @@ static inline void blend_sample(const Out* out, uint pixel, uint now,
     }
 }
 
-static inline uint known_lanes(const uint* keys) {
-    uint known = 0u;
-    for (uint lane = 0u; lane < 16u; ++lane)
-        known |= (keys[lane] & 1u) == 0u ? 1u << lane : 0u; /* MACULA_NO_KEY is odd, too */
-    return known;
+/* Everything that a packet is made from. */
+typedef struct Packet {
+    global const FrameParams* frame;
+    global const WeierParams* weier;
+    uint x0, y0;
+    uint sampled, fresh, inside; /* bits of lanes */
+    uint first;                  /* slot of the first sample */
+} Packet;
+
+static inline uint pixel_of_lane(const Packet* p, uint lane) {
+    return (p->y0 + (lane >> 2)) * p->frame->width + p->x0 + (lane & 3u);
+}
+
+static inline uint slot_of_lane(const Packet* p, uint lane) {
+    return p->first + popcount(p->sampled & ((1u << lane) - 1u));
+}
+
+/* What the samples bring. */
+typedef struct Samples {
+    global const float4* colour;
+    global const float* depth;
+    global const LightValue* light;
+} Samples;
+
+static inline void take_fresh(const Packet* p, const Samples* samples, const Out* out) {
+    for (uint lanes = p->fresh; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes), slot = slot_of_lane(p, lane);
+        take_sample(out, pixel_of_lane(p, lane), p->frame->frame, samples->colour[slot],
+                    samples->light, slot);
+    }
+}
+
+/* Histories are kept row by row, samples and gaps come afterwards. Returns the lanes whose history
+ * is sound: what is not a number stays out of the cache. */
+MACULA_ALWAYS_INLINE uint keep_row(const Packet* p, const Past* past, const Lanes* t,
+                                   const Spans* spans, uint row, uint known, const Out* out) {
+    const uint width = p->frame->width;
+    float16 colour = row_of_colours(past->colour, t, spans, width, row);
+    colour.s37bf = (float4)(1.0f);
+    const int* nearest = t->nearest + 4u * row;
+    const uint8 info = (uint8)(past->info[nearest[0]], past->info[nearest[1]],
+                               past->info[nearest[2]], past->info[nearest[3]]);
+    const float4 rho = as_float4(info.even);
+    const int4 sound = (rho >= 0.0f) & (rho < 1e6f);
+    const int16 finite = fabs(colour) < 1e30f;
+    const uint pixel = (p->y0 + row) * width + p->x0;
+    const uint lanes = p->inside >> 4u * row & 15u;
+    const uint wanted = known >> 4u * row & 15u;
+    if (lanes == 15u) {
+        vstore16(colour, 0, (global float*)(out->colour + pixel));
+        vstore8(info, 0, (global uint*)(out->info + pixel));
+    } else {
+        float4 colours[4];
+        uint2 infos[4];
+        vstore16(colour, 0, (float*)colours);
+        vstore8(info, 0, (uint*)infos);
+        for (uint k = 0u; k < 4u; ++k)
+            if ((lanes >> k & 1u) != 0u) {
+                out->colour[pixel + k] = colours[k];
+                out->info[pixel + k] = infos[k];
+            }
+    }
+    if (out->light)
+        for (uint k = 0u; k < 4u; ++k)
+            if ((wanted >> k & 1u) != 0u)
+                out->light[pixel + k] = kept_light(past->light[nearest[k]]);
+    uint kept = 15u;
+    const int4 whole = finite.s048c & finite.s159d & finite.s26ae & sound;
+    const int2 half_of = whole.lo & whole.hi;
+    if ((half_of.x & half_of.y) == 0)
+        kept = (whole.x & 1) | (whole.y & 2) | (whole.z & 4) | (whole.w & 8);
+    return (wanted & kept) << 4u * row;
+}
+
+/* The gap is filled from the support image. */
+static inline void fill(const Packet* p, global const float4* support, uint lane, const Out* out) {
+    const uint pixel = pixel_of_lane(p, lane);
+    const float4 colour =
+        from_support(support, p->frame, p->weier, p->x0 + (lane & 3u), p->y0 + (lane >> 2));
+    out->colour[pixel] = (float4)(colour.xyz, 1.0f);
+    out->info[pixel] = (uint2)(as_uint(0.0f), 0u);
+    if (out->light)
+        out->light[pixel] = UNLIT;
+}
+
+/* A sample where history was kept. */
+static inline void update(const Packet* p, const Samples* samples, uint lane, float inverse_depth,
+                          bool found, const Out* out) {
+    const uint pixel = pixel_of_lane(p, lane), slot = slot_of_lane(p, lane);
+    const uint now = p->frame->frame;
+    const float apart = fabs(fma(samples->depth[slot], inverse_depth, -1.0f));
+    if (!found || !(apart <= p->weier->merge_threshold)) {
+        take_sample(out, pixel, now, samples->colour[slot], samples->light, slot);
+        return;
+    }
+    Cache cache;
+    cache.colour = out->colour[pixel];
+    cache.light = out->light ? out->light[pixel] : UNLIT;
+    const uint2 word = out->info[pixel];
+    cache.rho = as_float(word.x);
+    cache.touch = word.y;
+    blend_sample(out, pixel, now, p->weier, samples->colour[slot], samples->light, slot, &cache);
+}
+
+MACULA_ALWAYS_INLINE uint16 keys_of(global const uint* keys, uint pitch) {
+    return (uint16)(vload4(0, keys), vload4(0, keys + pitch), vload4(0, keys + 2u * pitch),
+                    vload4(0, keys + 3u * pitch));
+}
+
+/* Packets between asking for memory and using it: their addresses jump too much for a processor to
+ * foresee them, and each packet waits for its keys, then for its texels. */
+#define AHEAD 16u
+
+/* Asks for what a later packet will need; `motion`: from a pixel to its history, in texels. */
+MACULA_ALWAYS_INLINE void fetch_ahead(global const FrameParams* frame, uint packet, int motion,
+                                      global const uint* keys, uint pitch, const Past* past,
+                                      const Out* out) {
+    const uint width = frame->width;
+    uint x, y;
+    pixel_of_slot(packet * 16u, width, &x, &y);
+    for (uint row = 0u; row < 4u; ++row) {
+        const long pixel = (long)(y + row) * width + x;
+        MACULA_FETCH(keys, ((y + row) * pitch + x) * sizeof(uint));
+        MACULA_FETCH(past->colour, (pixel + motion) * (long)sizeof(float4));
+        MACULA_FETCH(past->info, (pixel + motion) * (long)sizeof(uint2));
+        MACULA_FETCH_TO_WRITE(out->colour, pixel * (long)sizeof(float4));
+        MACULA_FETCH_TO_WRITE(out->info, pixel * (long)sizeof(uint2));
+    }
+}
+
+MACULA_ALWAYS_INLINE int motion_of(const Spans* spans, const Packet* p) {
+    const int pixel = (int)(p->y0 * p->frame->width + p->x0);
+    return spans->first[0] != 0x7fffffff ? spans->first[0] - pixel : 0;
 }
 
 /* One work-item a packet of sixteen pixels. `reprojected_colour` may be null, and the light
@@ -152,100 +246,90 @@ static inline uint known_lanes(const uint* keys) {
 kernel void
 merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict mesh_columns, global const float* restrict mesh_rows,
-            global const float4* restrict vertices, global const uint* restrict keys,
-            global const uint* restrict history_kept, global const uint* restrict masks,
-            global const uint* restrict offsets, global const float4* restrict past_colour,
-            global const uint2* restrict past_info, global const LightValue* restrict past_light,
+            global const float4* restrict vertices, global const float* restrict cells,
+            global const uint* restrict keys, global const uint* restrict history_kept,
+            global const uint* restrict masks, global const uint* restrict offsets,
+            global const float4* restrict past_colour, global const uint2* restrict past_info,
+            global const LightValue* restrict past_light,
             global const float4* restrict support_image,
             global const float4* restrict sampled_colour, global const float* restrict depth,
             global const LightValue* restrict sampled_light, global float4* restrict colour,
             global uint2* restrict info, global LightValue* restrict light,
             global float4* restrict reprojected_colour) {
     const uint packet = (uint)get_global_id(0);
-    const uint width = frame->width, height = frame->height, now = frame->frame;
-    const uint sampled = masks[packet] & 0xffffu, fresh = masks[packet] >> 16;
-    const uint first = offsets[packet]; /* slot of the packet's first sample */
+    const uint width = frame->width, height = frame->height;
+    Packet p;
+    p.frame = frame;
+    p.weier = weier;
+    pixel_of_slot(packet * 16u, width, &p.x0, &p.y0);
+    const uint columns = p.x0 < width ? min(width - p.x0, 4u) : 0u;
+    const uint rows = p.y0 < height ? min(height - p.y0, 4u) : 0u;
+    p.inside = ((1u << columns) - 1u) * (0x1111u & ((1u << 4u * rows) - 1u));
+    p.sampled = masks[packet] & 0xffffu;
+    p.fresh = masks[packet] >> 16;
+    p.first = offsets[packet];
     const Out out = {colour, info, light};
-    uint x0, y0;
-    pixel_of_slot(packet * 16u, width, &x0, &y0);
-    const uint columns = x0 < width ? min(width - x0, 4u) : 0u;
-    const uint rows = y0 < height ? min(height - y0, 4u) : 0u;
-    const uint inside = ((1u << columns) - 1u) * (0x1111u & ((1u << 4u * rows) - 1u));
-    for (uint lanes = fresh; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = first_lane(lanes);
-        const uint pixel = (y0 + (lane >> 2)) * width + x0 + (lane & 3u);
-        const uint slot = first + popcount(sampled & ((1u << lane) - 1u));
-        take_sample(&out, pixel, now, sampled_colour[slot], sampled_light, slot);
-    }
-    const uint rest = reprojected_colour ? inside : inside & ~fresh;
-    if (rest == 0u)
+    const Samples samples = {sampled_colour, depth, sampled_light};
+    const uint rest = reprojected_colour ? p.inside : p.inside & ~p.fresh;
+    if (rest == 0u) {
+        take_fresh(&p, &samples, &out);
         return;
-
-    uint key[16];
-    for (uint row = 0u; row < 4u; ++row)
-        vstore4(vload4(0, keys + (y0 + row) * weier->pitch + x0), row, key);
-    const uint known = *history_kept != 0u ? rest & known_lanes(key) : 0u;
-    const float16 x = (float)x0 + (float16)(0.5f, 1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f, 0.5f,
-                                            1.5f, 2.5f, 3.5f, 0.5f, 1.5f, 2.5f, 3.5f);
-    const float16 y = (float)y0 + (float16)(0.5f, 0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 1.5f, 2.5f,
-                                            2.5f, 2.5f, 2.5f, 3.5f, 3.5f, 3.5f, 3.5f);
-    const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
-    HistoryPacket history;
-    find_histories(&mesh, weier, key, known, x, y, &history);
-    Texels texels;
-    find_texels(&history, width, height, &texels);
+    }
+    const Past past = {past_colour, past_info, past_light};
+    const uint16 key = keys_of(keys + p.y0 * weier->pitch + p.x0, weier->pitch);
+    /* Keys with the bit are to be resampled; MACULA_NO_KEY has it, too. */
+    const int16 unmarked = (key & 1u) == 0u;
+    const uint known = *history_kept != 0u ? rest & bits_of_lanes16(unmarked) : 0u;
+    uint kept = 0u;
     float inverse_depth[16];
-    vstore16(history.inverse_depth, 0, inverse_depth);
-    const uint wide = weier->filter_samples > 0u ? history.wide : 0u;
-
-    for (uint lanes = known; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = first_lane(lanes);
-        MACULA_FETCH(past_colour, (ulong)texels.index[0][lane] * sizeof(float4));
-        MACULA_FETCH(past_colour, (ulong)texels.index[2][lane] * sizeof(float4));
-        MACULA_FETCH(past_info, (ulong)texels.nearest[lane] * sizeof(uint2));
-    }
-
-    for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = first_lane(lanes), bit = lanes & -lanes;
-        const uint px = x0 + (lane & 3u), py = y0 + (lane >> 2), pixel = py * width + px;
-        Cache cache;
-        cache.colour = (float4)(0.0f);
-        cache.light = UNLIT;
-        cache.rho = 0.0f;
-        cache.touch = 0u;
-        bool found = (known & bit) != 0u;
-        if (found) {
-            cache.colour = (wide & bit) != 0u ? filtered_colour(past_colour, &mesh, frame, weier,
-                                                                key[lane], px, py)
-                                              : bilinear(past_colour, &texels, lane);
-            const uint2 word = past_info[texels.nearest[lane]];
-            const float rho = as_float(word.x);
-            /* What is not a number stays out of the cache. */
-            found = is_number(cache.colour) && rho >= 0.0f && rho < 1e6f;
-            cache.rho = found ? rho : 0.0f;
-            cache.touch = word.y;
-            if (light && found)
-                cache.light = kept_light(past_light[texels.nearest[lane]]);
-        }
-        if (reprojected_colour)
-            reprojected_colour[pixel] = found ? (float4)(cache.colour.xyz, 1.0f) : (float4)(0.0f);
-        if ((fresh & bit) != 0u)
-            continue;
-        if ((sampled & bit) != 0u) {
-            const uint slot = first + popcount(sampled & (bit - 1u));
-            const float same = fabs(fma(depth[slot], inverse_depth[lane], -1.0f));
-            if (found && same <= weier->merge_threshold)
-                blend_sample(&out, pixel, now, weier, sampled_colour[slot], sampled_light, slot,
-                             &cache);
+    if (known != 0u) {
+        const float16 x = (float)p.x0 + (convert_float16(MACULA_LANES16 & 3) + 0.5f);
+        const float16 y = (float)p.y0 + (convert_float16(MACULA_LANES16 >> 2) + 0.5f);
+        const CellTables tables = {cells, mesh_columns, mesh_rows};
+        HistoryPacket history;
+        find_histories(&tables, weier, key, known, x, y, &history);
+        Texels texels;
+        find_texels(&history, width, height, &texels);
+        Spans spans;
+        find_spans(&texels, lanes_of(known), width, height, &spans);
+        fetch_ahead(frame, packet + AHEAD, motion_of(&spans, &p), keys, weier->pitch, &past, &out);
+        Lanes t;
+        vstore16(texels.upper_left, 0, t.upper_left);
+        vstore16(texels.upper_right, 0, t.upper_right);
+        vstore16(texels.lower_left, 0, t.lower_left);
+        vstore16(texels.lower_right, 0, t.lower_right);
+        vstore16(texels.nearest, 0, t.nearest);
+        vstore16(texels.to_x, 0, t.to_x);
+        vstore16(texels.to_y, 0, t.to_y);
+        vstore16(history.inverse_depth, 0, inverse_depth);
+        for (uint row = 0u; row < 4u; ++row)
+            if ((known >> 4u * row & 15u) != 0u)
+                kept |= keep_row(&p, &past, &t, &spans, row, known, &out);
+        uint key_of_lane[16];
+        vstore16(key, 0, key_of_lane);
+        const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
+        const uint wide = weier->filter_samples > 0u ? history.wide & kept : 0u;
+        for (uint lanes = wide; lanes != 0u; lanes &= lanes - 1u) {
+            const uint lane = first_lane(lanes);
+            const float4 filtered =
+                filtered_colour(past_colour, &mesh, frame, weier, key_of_lane[lane],
+                                p.x0 + (lane & 3u), p.y0 + (lane >> 2));
+            if (is_number(filtered))
+                colour[pixel_of_lane(&p, lane)] = (float4)(filtered.xyz, 1.0f);
             else
-                take_sample(&out, pixel, now, sampled_colour[slot], sampled_light, slot);
-        } else {
-            const float4 shown =
-                found ? cache.colour : from_support(support_image, frame, weier, px, py);
-            colour[pixel] = (float4)(shown.xyz, 1.0f);
-            info[pixel] = (uint2)(as_uint(cache.rho), cache.touch);
-            if (light)
-                light[pixel] = cache.light;
+                kept &= ~(1u << lane);
         }
     }
+    if (reprojected_colour)
+        for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
+            const uint lane = first_lane(lanes), pixel = pixel_of_lane(&p, lane);
+            reprojected_colour[pixel] = (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
+        }
+    take_fresh(&p, &samples, &out);
+    for (uint lanes = p.sampled & ~p.fresh; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        update(&p, &samples, lane, inverse_depth[lane], (kept >> lane & 1u) != 0u, &out);
+    }
+    for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
+        fill(&p, support_image, first_lane(lanes), &out);
 }

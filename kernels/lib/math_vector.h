@@ -35,4 +35,28 @@ MACULA_DEFINE_DIVIDE(16)
 #undef MACULA_DEFINE_DIVIDE
 #endif
 
+static inline float16 m_inverse_sqrt16(float16 x) {
+    const float16 half_x = 0.5f * x;
+    float16 y = as_float16((int16)(0x5f375a86) - (as_int16(x) >> 1));
+    y = fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
+    y = fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
+    return fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
+}
+
+#if MACULA_CORRECTLY_ROUNDED
+static inline float16 m_sqrt16(float16 x) {
+    return sqrt(x);
+}
+#else
+/* m_sqrt_in_software of lib/math.h. */
+static inline float16 m_sqrt16(float16 x) {
+    const float16 y = m_inverse_sqrt16(x);
+    const float16 half_y = 0.5f * y;
+    float16 s = x * y;
+    s = fma(fma(-s, s, x), half_y, s);
+    s = fma(fma(-s, s, x), half_y, s);
+    return x == 0.0f ? x : s;
+}
+#endif
+
 #endif

@@ -18,6 +18,13 @@ static inline bool any_lane16(int16 mask) {
     return (halves.x | halves.y) != 0;
 }
 
+/* Bit n is set where lane n of such a mask is not 0. */
+static inline uint bits_of_lanes16(int16 mask) {
+    const ulong2 bytes = as_ulong2(convert_char16(mask)) & 0x8040201008040201ul;
+    const ulong2 bits = bytes * 0x0101010101010101ul >> 56;
+    return (uint)(bits.x | bits.y << 8);
+}
+
 static inline float greatest_lane16(float16 v) {
     const float8 a = v.lo > v.hi ? v.lo : v.hi;
     const float4 b = a.lo > a.hi ? a.lo : a.hi;
@@ -51,8 +58,10 @@ static inline float8 least_lanes16(const float16 v[8]) {
 /* Asks the cache for the 64 bytes at p + offset; OpenCL's own prefetch() does nothing in PoCL. */
 #if defined(__x86_64__) || defined(__aarch64__)
 #define MACULA_FETCH(p, offset) __builtin_prefetch((const void*)((ulong)(p) + (offset)))
+#define MACULA_FETCH_TO_WRITE(p, offset) __builtin_prefetch((const void*)((ulong)(p) + (offset)), 1)
 #else
 #define MACULA_FETCH(p, offset)
+#define MACULA_FETCH_TO_WRITE(p, offset)
 #endif
 
 /* The number of each lane. */

@@ -1,0 +1,87 @@
+/* Last frame's texels around the histories of sixteen pixels. */
+#ifndef MACULA_CACHE_TEXELS_H
+#define MACULA_CACHE_TEXELS_H
+
+#include "lib/reprojection_packet.h"
+
+/* The four texels around each place, as indices, and how far it is from the first one. */
+typedef struct Texels {
+    int16 upper_left, upper_right, lower_left, lower_right;
+    int16 nearest;
+    float16 to_x, to_y;
+} Texels;
+
+/* Places are counted in 1/256 of a pixel, as texture units do: a place within 1/512 of a texel's
+ * middle is that texel exactly, so that nothing drifts while the view stands still. */
+MACULA_ALWAYS_INLINE void find_texels(const HistoryPacket* history, uint width, uint height,
+                                      Texels* t) {
+    const int16 x = convert_int16(rint(fma(history->x, (float16)(256.0f), (float16)(-128.0f))));
+    const int16 y = convert_int16(rint(fma(history->y, (float16)(256.0f), (float16)(-128.0f))));
+    const int16 right = (int16)((int)width - 1), bottom = (int16)((int)height - 1);
+    const int16 none = (int16)(0);
+    const int16 x0 = min(max(x >> 8, none), right), x1 = min(max((x >> 8) + 1, none), right);
+    const int16 y0 = min(max(y >> 8, none), bottom) * (int)width;
+    const int16 y1 = min(max((y >> 8) + 1, none), bottom) * (int)width;
+    t->upper_left = y0 + x0;
+    t->upper_right = y0 + x1;
+    t->lower_left = y1 + x0;
+    t->lower_right = y1 + x1;
+    t->to_x = convert_float16(x & 255) * 0x1p-8f;
+    t->to_y = convert_float16(y & 255) * 0x1p-8f;
+    t->nearest = ((y & 255) >= 128 ? y1 : y0) + ((x & 255) >= 128 ? x1 : x0);
+}
+
+/* The texels of four neighbours of a row are mostly neighbours of a row, too. */
+typedef struct Spans {
+    uint straight; /* bit n: lane n's texels are where its row's first ones say */
+    int first[4];  /* index of the texel for each row's first lane */
+} Spans;
+
+MACULA_ALWAYS_INLINE void find_spans(const Texels* t, int16 known, uint width, uint height,
+                                     Spans* spans) {
+    const int16 column = MACULA_LANES16 & 3;
+    const int16 start = known ? t->upper_left - column : (int16)(0x7fffffff);
+    const int16 pairs = min(start, start.s1032547698badcfe);
+    const int16 least = min(pairs, pairs.s23016745ab89efcd);
+    const int last = (int)(width * height - width) - 4;
+    const int16 whole = (start == least) & (start >= 0) & (start < last) &
+                        (t->upper_right == t->upper_left + 1) &
+                        (t->lower_left == t->upper_left + (int)width);
+    spans->straight = bits_of_lanes16(whole | ~known);
+    vstore4(least.s048c, 0, spans->first);
+}
+
+MACULA_ALWAYS_INLINE float16 blend_texels(float16 a, float16 b, float16 c, float16 d, float16 to_x,
+                                          float16 to_y) {
+    const float16 top = fma(b - a, to_x, a), bottom = fma(d - c, to_x, c);
+    return fma(bottom - top, to_y, top);
+}
+
+MACULA_ALWAYS_INLINE float16 four_texels(global const float4* image, const int* index) {
+    return (float16)(image[index[0]], image[index[1]], image[index[2]], image[index[3]]);
+}
+
+/* Indices of texels and weights, lane by lane. */
+typedef struct Lanes {
+    int upper_left[16], upper_right[16], lower_left[16], lower_right[16], nearest[16];
+    float to_x[16], to_y[16];
+} Lanes;
+
+/* Colours of the four pixels of a row between their texels. */
+MACULA_ALWAYS_INLINE float16 row_of_colours(global const float4* image, const Lanes* t,
+                                            const Spans* spans, uint width, uint row) {
+    const float4 x = vload4(row, t->to_x), y = vload4(row, t->to_y);
+    const float16 to_x = (float16)(x.xxxx, x.yyyy, x.zzzz, x.wwww);
+    const float16 to_y = (float16)(y.xxxx, y.yyyy, y.zzzz, y.wwww);
+    if ((spans->straight >> 4u * row & 15u) == 15u) {
+        global const float* at = (global const float*)(image + spans->first[row]);
+        return blend_texels(vload16(0, at), vload16(0, at + 4), vload16(0, at + 4u * width),
+                            vload16(0, at + 4u * width + 4), to_x, to_y);
+    }
+    return blend_texels(four_texels(image, t->upper_left + 4u * row),
+                        four_texels(image, t->upper_right + 4u * row),
+                        four_texels(image, t->lower_left + 4u * row),
+                        four_texels(image, t->lower_right + 4u * row), to_x, to_y);
+}
+
+#endif

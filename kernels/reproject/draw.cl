@@ -1,0 +1,118 @@
+/* The mesh at full resolution (Weier et al. 2016, section 3.2). Which cell a pixel belongs to is
+ * decided by an integer minimum over the keys of lib/reprojection.h. A tile of the screen is one
+ * work-item's: no atomics, and no order of execution that could show. */
+#include "lib/mesh_cells.h"
+#include "lib/reprojection.h"
+#include "lib/simd.h"
+
+/* Pixels next to a cell that still count as its own, as a part of it, so that rounding leaves no
+ * gap. */
+#define OVERLAP 0.002f
+
+typedef struct Tile {
+    int left, top, right, bottom; /* pixels, ends excluded; left is a multiple of 16 */
+} Tile;
+
+MACULA_ALWAYS_INLINE uint16 ranks(float16 inverse_depth, uint depth_bits) {
+    const float16 least = (float16)(MACULA_LEAST_INVERSE_DEPTH);
+    const float16 most = (float16)(MACULA_GREATEST_INVERSE_DEPTH);
+    const float16 kept = m_min16(m_max16(inverse_depth, least), most);
+    const uint16 steps =
+        (as_uint16(kept) - as_uint(MACULA_LEAST_INVERSE_DEPTH)) >> (28u - depth_bits);
+    const uint last = (1u << depth_bits) - 1u;
+    return steps == 0u ? (uint16)(last - 1u) : last - steps;
+}
+
+/* A triangle's functions on a row: at its first pixel's column 0, and for one pixel to the right.
+ */
+MACULA_ALWAYS_INLINE float16 on_row(global const float* cell, uint field, float16 x, float start) {
+    return fma((float16)(cell[field * 16u]), x, (float16)(start));
+}
+
+MACULA_ALWAYS_INLINE int16 inside_triangle(float16 b, float16 c) {
+    return (b >= -OVERLAP) & (c >= -OVERLAP) & (b + c <= 1.0f + OVERLAP);
+}
+
+/* Sixteen pixels a step: the column of `x` on all rows of the cell that lie in the tile. */
+MACULA_ALWAYS_INLINE void draw_columns(global const float* cell, uint depth_bits, uint pitch, int x,
+                                       int top, int bottom, global uint* keys) {
+    const float16 to_x =
+        (convert_float16((int16)(x) + MACULA_LANES16) + 0.5f) - cell[MACULA_OUTLINE_X * 16u];
+    const float origin_y = cell[MACULA_OUTLINE_Y * 16u], depth = cell[MACULA_OUTLINE_DEPTH * 16u];
+    const uint place = as_uint(cell[MACULA_OUTLINE_KEY * 16u]), shift = 32u - depth_bits;
+    const uint upper = MACULA_OUTLINE_UPPER, lower = MACULA_OUTLINE_LOWER;
+    for (int y = top; y < bottom; ++y) {
+        const float to_y = ((float)y + 0.5f) - origin_y;
+        const float16 upper_b =
+            on_row(cell, upper + MACULA_PER_PIXEL_B, to_x, cell[(upper + 1u) * 16u] * to_y);
+        const float16 upper_c =
+            on_row(cell, upper + MACULA_PER_PIXEL_C, to_x, cell[(upper + 3u) * 16u] * to_y);
+        const float16 lower_b =
+            on_row(cell, lower + MACULA_PER_PIXEL_B, to_x, cell[(lower + 1u) * 16u] * to_y);
+        const float16 lower_c =
+            on_row(cell, lower + MACULA_PER_PIXEL_C, to_x, cell[(lower + 3u) * 16u] * to_y);
+        const int16 in_upper = inside_triangle(upper_b, upper_c);
+        const int16 in_lower = inside_triangle(lower_b, lower_c);
+        const float16 upper_depth = on_row(cell, upper + MACULA_PER_PIXEL_INVERSE, to_x,
+                                           fma(cell[(upper + 5u) * 16u], to_y, depth));
+        const float16 lower_depth = on_row(cell, lower + MACULA_PER_PIXEL_INVERSE, to_x,
+                                           fma(cell[(lower + 5u) * 16u], to_y, depth));
+        const uint16 rank = ranks(in_upper ? upper_depth : lower_depth, depth_bits);
+        const uint16 key = (in_upper | in_lower) ? rank << shift | place : (uint16)(MACULA_NO_KEY);
+        global uint* row = keys + (uint)y * pitch + (uint)x;
+        vstore16(min(vload16(0, row), key), 0, row);
+    }
+}
+
+MACULA_ALWAYS_INLINE void draw_cells(global const float* block, const Tile* tile, uint depth_bits,
+                                     uint pitch, global uint* keys) {
+    global const int* numbers = (global const int*)block;
+    const int16 left = vload16(MACULA_OUTLINE_LEFT, numbers);
+    const int16 top = vload16(MACULA_OUTLINE_TOP, numbers);
+    const int16 right = vload16(MACULA_OUTLINE_RIGHT, numbers);
+    const int16 bottom = vload16(MACULA_OUTLINE_BOTTOM, numbers);
+    const int16 met = (left < tile->right) & (right > tile->left) & (top < tile->bottom) &
+                      (bottom > tile->top) & (left < right) & (top < bottom);
+    for (uint lanes = bits_of_lanes16(met); lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = popcount((lanes & -lanes) - 1u);
+        global const int* cell = numbers + lane;
+        const int y_begin = max(cell[MACULA_OUTLINE_TOP * 16u], tile->top);
+        const int y_end = min(cell[MACULA_OUTLINE_BOTTOM * 16u], tile->bottom);
+        const int x_end = min(cell[MACULA_OUTLINE_RIGHT * 16u], tile->right);
+        for (int x = max(cell[MACULA_OUTLINE_LEFT * 16u], tile->left) & ~15; x < x_end; x += 16)
+            draw_columns(block + lane, depth_bits, pitch, x, y_begin, y_end, keys);
+    }
+}
+
+/* One work-item a tile of MACULA_DRAWN_TILE pixels squared. */
+kernel void draw_mesh(global const WeierParams* restrict weier,
+                      global const float* restrict outlines, global const float* restrict fronts,
+                      global const int* restrict bounds, uint rows, global uint* restrict keys) {
+    const uint across = weier->support_width, down = weier->support_height;
+    const uint pitch = weier->pitch, count = cell_blocks(across, down);
+    const uint plane = bounds_pitch(across, down), tiles = pitch / MACULA_DRAWN_TILE;
+    const uint index = (uint)get_global_id(0), stride = MACULA_OUTLINE_FIELDS * 16u;
+    Tile tile;
+    tile.left = (int)(index % tiles * MACULA_DRAWN_TILE);
+    tile.top = (int)(index / tiles * MACULA_DRAWN_TILE);
+    if (tile.top >= (int)rows)
+        return;
+    tile.right = tile.left + (int)MACULA_DRAWN_TILE;
+    tile.bottom = tile.top + (int)MACULA_DRAWN_TILE;
+    for (int y = tile.top; y < tile.bottom; ++y)
+        for (int x = tile.left; x < tile.right; x += 16)
+            vstore16((uint16)(MACULA_NO_KEY), 0, keys + (uint)y * pitch + (uint)x);
+    for (uint first = 0u; first < count; first += 16u) {
+        global const int* box = bounds + first;
+        const int16 met = (vload16(0, box) < tile.right) & (vload16(0, box + plane) < tile.bottom) &
+                          (vload16(0, box + 2u * plane) > tile.left) &
+                          (vload16(0, box + 3u * plane) > tile.top) &
+                          (MACULA_LANES16 < (int16)((int)(count - first)));
+        for (uint lanes = bits_of_lanes16(met); lanes != 0u; lanes &= lanes - 1u) {
+            const uint block = first + popcount((lanes & -lanes) - 1u);
+            draw_cells(outlines + block * stride, &tile, weier->depth_bits, pitch, keys);
+            if (bounds[MACULA_BOUNDS_SECOND * plane + block] != 0)
+                draw_cells(fronts + block * stride, &tile, weier->depth_bits, pitch, keys);
+        }
+    }
+}
