@@ -96,8 +96,12 @@ double undistort(const Distortion& k, double distorted) {
             power *= r * r;
             slope += k[i] * power * static_cast<double>(2 * i + 3);
         }
+        if (!(slope > 0.0)) { // beyond the part where it grows
+            r *= 0.5;
+            continue;
+        }
         const double error = distort(k, r) - distorted;
-        if (std::fabs(error) < 1e-14 * std::fmax(1.0, distorted) || !(slope > 0.0))
+        if (std::fabs(error) < 1e-14 * std::fmax(1.0, distorted))
             break;
         r -= error / slope;
     }

@@ -85,7 +85,7 @@ glm::dvec3 direction_of_angles(double right_degrees, double up_degrees);
 glm::dvec2 angles_of_direction(const glm::dvec3& direction);
 
 // The lens: r -> r * (1 + k[0] r^2 + ...), and its inverse by Newton's method on the part where it
-// grows. r >= 0.
+// grows; some other number where that part does not reach `distorted`. r >= 0.
 double distort(const Distortion& k, double r);
 double undistort(const Distortion& k, double distorted);
 

@@ -62,6 +62,8 @@ void read_distortion(const TomlTable& root, Display& display) {
     for (std::size_t colour = 0; colour < 3; ++colour)
         if (const auto k = table->numbers(kColours[colour], 8, -1e3, 1e3))
             display.distortion[colour] = *k;
+        else if (const auto of_green = table->numbers("green", 8, -1e3, 1e3))
+            display.distortion[colour] = *of_green;
     table->reject_unknown();
 }
 

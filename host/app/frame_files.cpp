@@ -49,7 +49,7 @@ void FrameFiles::write_exr(const std::filesystem::path& path, const render::Rend
     std::vector<render::Image> images;
     images.reserve(aovs_.size() + 1);
     std::vector<output::Layer> layers;
-    images.push_back(renderer.map("colour"));
+    images.push_back(renderer.picture());
     layers.push_back(layer_of(images.back(), {"R", "G", "B"}));
     for (const std::string& name : aovs_) {
         const Aov& aov = find_aov(name);
@@ -70,7 +70,7 @@ std::vector<std::filesystem::path> FrameFiles::write(const render::Renderer& ren
         if (format == "exr") {
             write_exr(path, renderer, metadata);
         } else {
-            const render::Image colour = renderer.map("colour");
+            const render::Image colour = renderer.picture();
             output::write_png(path, colour.width, colour.height, colour.floats, colour.components,
                               exposure_, metadata);
         }

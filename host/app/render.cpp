@@ -118,6 +118,15 @@ std::vector<compute::Device> open_devices(const std::string& selectors, std::siz
     return devices;
 }
 
+/// The lens of the display. Throws std::invalid_argument where none is known.
+stage::LensDistortion lens_of(const scene::Display& display) {
+    for (const scene::Distortion& colour : display.distortion)
+        if (!colour.empty())
+            return display.distortion;
+    throw std::invalid_argument(
+        fmt::format("--distort: no distortion is known of the display \"{}\"", display.name));
+}
+
 /// `engine`: but for the view.
 EyeRun make_eye(const app::RenderOptions& options, render::Options engine,
                 std::shared_ptr<render::DeviceScene> on_device, const scene::Scene& scene,
@@ -126,7 +135,10 @@ EyeRun make_eye(const app::RenderOptions& options, render::Options engine,
     engine.height = views.display().height;
     if (!options.display.empty())
         engine.tangents = app::tangents_of(views.display().eye(eye));
+    if (options.distort)
+        engine.lens = lens_of(views.display());
     output::Metadata metadata = metadata_of(options, on_device->device);
+    metadata.emplace_back("distorted", options.distort ? "yes" : "no");
     if (!options.display.empty()) {
         metadata.emplace_back("display", views.display().name);
         metadata.emplace_back("eye", scene::name(eye));

@@ -32,6 +32,7 @@ void ViewOptions::add_to(CLI::App& command) {
         "--display", display,
         "Size and field of view: a name of `macula displays`, a file .toml or .json, "
         "or none (default: the scene file's)");
+    command.add_flag("--distort", distort, "Warp the pictures for the display's lens");
     command.add_option("--size", size, "WIDTHxHEIGHT in pixels (default 640x480)");
     command
         .add_option("--eyes", eyes, "mono, left, right or both (two views, into left/ and right/)")

@@ -25,7 +25,8 @@ struct ViewOptions {
     std::string display; // empty: the scene's; without one, or "none", the camera's field of view
     std::string size;    // WxH; empty: the display's, or 640x480
     std::string eyes = "mono", tracker, head;
-    std::string gaze; // empty: the scene's; without one, or "none", along the camera's axis
+    bool distort = false; // warp the pictures for the display's lens
+    std::string gaze;     // empty: the scene's; without one, or "none", along the camera's axis
 
     void add_to(CLI::App& command);
 };

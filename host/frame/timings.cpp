@@ -11,6 +11,15 @@ StageStatistics summary(const std::string& stage, std::uint32_t launches,
     return {stage, launches, percentile(ms, 0.5), percentile(ms, 0.95), percentile(ms, 0.99)};
 }
 
+// The value of frame number `frame` takes the place of the one kKeptFrames before.
+void keep(std::vector<double>& values, std::uint32_t frame, double value) {
+    const std::size_t place = frame % Timings::kKeptFrames;
+    if (place < values.size())
+        values[place] = value;
+    else
+        values.push_back(value);
+}
+
 } // namespace
 
 std::vector<StageTime> sum_by_stage(std::span<const compute::Span> spans) {
@@ -30,19 +39,20 @@ std::vector<StageTime> sum_by_stage(std::span<const compute::Span> spans) {
 void Timings::add(std::span<const StageTime> stages, double wall_ms) {
     if (seen_++ < warm_up_)
         return;
+    const std::uint32_t frame = seen_ - warm_up_ - 1;
     double device = 0.0, host = 0.0;
     for (const StageTime& stage : stages) {
         if (!rows_.contains(stage.stage))
             order_.push_back(stage.stage);
         Row& row = rows_[stage.stage];
         row.launches = stage.launches;
-        row.ms.push_back(stage.device_ms);
+        keep(row.ms, frame, stage.device_ms);
         device += stage.device_ms;
         host += stage.host_ms;
     }
-    device_.push_back(device);
-    host_.push_back(host);
-    wall_.push_back(wall_ms);
+    keep(device_, frame, device);
+    keep(host_, frame, host);
+    keep(wall_, frame, wall_ms);
 }
 
 std::vector<StageStatistics> Timings::statistics() const {

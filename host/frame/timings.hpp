@@ -29,6 +29,9 @@ struct StageStatistics {
 
 class Timings {
   public:
+    // Statistics are those of the last frames: memory stays flat however many are rendered.
+    static constexpr std::uint32_t kKeptFrames = 4096;
+
     // `warm_up`: frames at the start that do not count.
     explicit Timings(std::uint32_t warm_up = 1) : warm_up_(warm_up) {}
 

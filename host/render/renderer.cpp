@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array kFormats = {
     ImageFormat{"colour", 4, 3, false, "linear RGB radiance, mean of the samples"},
+    ImageFormat{"lens image", 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
     ImageFormat{"albedo", 4, 3, false, "diffuse reflectance, linear RGB, mean of the samples"},
     ImageFormat{"irradiance", 4, 3, false, "direct light over pi, linear RGB, mean"},
     ImageFormat{"ambient occlusion", 1, 1, false, "part of the hemisphere that is open, mean"},
@@ -81,6 +82,16 @@ std::shared_ptr<DeviceScene> checked_scene(const compute::Device& device, const 
     return std::make_shared<DeviceScene>(device, scene, options.geometry);
 }
 
+frame::Graph make_graph(const stage::Kit& kit, const Options& o) {
+    frame::Graph graph =
+        method::find_method(o.method).make(kit, {o.lights, o.weier, o.lowres_scale});
+    if (o.lens && !o.tangents)
+        throw std::invalid_argument("a lens needs the tangents of its display's field of view");
+    if (o.lens)
+        graph.add(stage::prewarp(kit, stage::make_lens(*o.lens, *o.tangents, o.width, o.height)));
+    return graph;
+}
+
 compute::Buffer zeroed_counters(compute::Device& device) {
     const std::array<std::uint64_t, kernel::kRayClasses.size()> zeros{};
     return device.upload(std::span(zeros), "ray counts");
@@ -107,16 +118,19 @@ struct Renderer::State {
           settings(settings_of(scene, o, lights.size())),
           tracer(device, on_device->library, on_device->geometry,
                  stage::choose_variants(device, o.variant)),
-          graph(method::find_method(o.method).make(
-              {device, on_device->library, on_device->geometry, on_device->surfaces, tracer,
-               o.width, o.height, lights, settings.ambient_occlusion_samples, has_highlights(scene),
-               ray_totals, o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
-              {o.lights, o.weier, o.lowres_scale})),
+          graph(make_graph({device, on_device->library, on_device->geometry, on_device->surfaces,
+                            tracer, o.width, o.height, lights, settings.ambient_occlusion_samples,
+                            has_highlights(scene), ray_totals,
+                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
+                           o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.insert("colour");
+        outputs.insert(picture());
         graph.compile(device, outputs);
     }
+
+    const char* picture() const { return options.lens ? "lens image" : "colour"; }
 
     std::shared_ptr<DeviceScene> on_device;
     compute::Device device;
@@ -213,9 +227,13 @@ Image Renderer::map(const std::string& name) const {
         fmt::format("image \"{}\" was not asked for when the renderer was made", name));
 }
 
+Image Renderer::picture() const {
+    return map(state_->picture());
+}
+
 std::string Renderer::hash() const {
-    const Image colour = map("colour");
-    return fmt::format("{:016x}", XXH3_64bits(colour.words.data(), colour.words.size_bytes()));
+    const Image shown = picture();
+    return fmt::format("{:016x}", XXH3_64bits(shown.words.data(), shown.words.size_bytes()));
 }
 
 void Renderer::set_transforms(std::span<const scene::Transform> world_from_object) {

@@ -24,6 +24,7 @@
 #include "host/kernel/variants.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/stage/foveated.hpp"
+#include "host/stage/lens.hpp"
 #include "scenes/scene.hpp"
 
 namespace macula::render {
@@ -41,6 +42,8 @@ struct Options {
     std::string variant; // a traversal variant for all rays; empty: chosen for device and rays
     // Of the display; without them the camera's vertical field of view and square pixels.
     std::optional<frame::Tangents> tangents;
+    // Warps the picture for the display's lens; needs `tangents`.
+    std::optional<stage::LensDistortion> lens;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
     stage::WeierOptions weier;       // of method "weier"
@@ -103,7 +106,9 @@ class Renderer {
     // An image of the last frame: "colour" or one of Options::images. Throws std::invalid_argument
     // for another name.
     Image map(const std::string& name) const;
-    // 16 hexadecimal digits: XXH3 (64 bits) of the colour's bits.
+    // What is to be shown: "colour", or "lens image" where Options::lens is given.
+    Image picture() const;
+    // 16 hexadecimal digits: XXH3 (64 bits) of the picture's bits.
     std::string hash() const;
 
     // Places the scene's instances anew for the next frame: one transform each. That frame's

@@ -6,6 +6,7 @@
 
 #include "shared/bvh.h"
 #include "shared/camera.h"
+#include "shared/lens.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
 #include "shared/weier.h"
@@ -82,6 +83,10 @@
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \
     MEMBER(WeierParams, depth_bits)                                                                \
-    MEMBER(WeierParams, first_frame_full)
+    MEMBER(WeierParams, first_frame_full)                                                          \
+    STRUCT(LensParams)                                                                             \
+    MEMBER(LensParams, scale_x)                                                                    \
+    MEMBER(LensParams, most)                                                                       \
+    MEMBER(LensParams, k)
 
 #endif

@@ -84,6 +84,17 @@ TEST_F(RenderProgram, TheCommandLineOverridesTheSceneFile) {
     EXPECT_NE(frame_of("")["hash"], plain["hash"]) << "the display has another field of view";
 }
 
+TEST_F(RenderProgram, WarpsForTheLensOfTheDisplay) {
+    write("tiny.toml", "width = 40\nheight = 30\n[screen]\nwidth_mm = 400\ndistance_mm = 600\n"
+                       "[distortion]\ngreen = [0.3, 0.1]\n");
+    write("s.toml", "procedural = 'cornell'\ndisplay = 'tiny.toml'\n");
+    EXPECT_NE(frame_of("--distort")["hash"], frame_of("")["hash"]);
+    EXPECT_EQ(size_of_picture(), "40x30");
+    EXPECT_THAT(render("--distort --display dk2 --size 40x30").text,
+                HasSubstr("--distort: no distortion is known of the display \"dk2\""));
+    EXPECT_THAT(render("--distort --display none").text, HasSubstr("--distort"));
+}
+
 TEST_F(RenderProgram, NamesTheOptionThatIsWrong) {
     write("s.toml", "procedural = 'cornell'\n");
     EXPECT_THAT(render("--method weier --first-frame half").text,

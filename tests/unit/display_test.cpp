@@ -188,6 +188,15 @@ TEST(DisplayFile, HeadsetWithCantAndDistortion) {
     EXPECT_TRUE(d.distortion[1].empty());
 }
 
+TEST(DisplayFile, ColoursWithoutADistortionHaveThatOfGreen) {
+    const std::string screen =
+        "width = 9\nheight = 9\n[screen]\nwidth_mm = 90\ndistance_mm = 300\n";
+    const Display d = parse(screen + "[distortion]\ngreen = [0.1]\nblue = [0.2]\n");
+    EXPECT_EQ(d.distortion[0], Distortion{0.1});
+    EXPECT_EQ(d.distortion[1], Distortion{0.1});
+    EXPECT_EQ(d.distortion[2], Distortion{0.2});
+}
+
 TEST(DisplayFile, JsonIsReadLikeToml) {
     const Display d = parse_display(
         R"({"width": 800, "height": 600, "screen": {"width_mm": 400, "distance_mm": 500}})",
