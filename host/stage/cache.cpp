@@ -5,7 +5,7 @@ namespace macula::stage {
 frame::Stage extract_support(const FoveatedKit& kit) {
     frame::Stage stage;
     stage.name = "extract the support image and G-buffer";
-    stage.reads = {"ray count", "pixel of slot", "sampled colour", "surface depth",
+    stage.reads = {"sampling masks", "list offsets", "sampled colour", "surface depth",
                    "surface geometric normal"};
     stage.writes = {kit.per_support("support image", 16), kit.per_support("support geometry", 16)};
     stage.prepare = [kit, name = stage.name] {
@@ -15,10 +15,10 @@ frame::Stage extract_support(const FoveatedKit& kit) {
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run.params_buffer(), kit.grid->params_buffer, kit.grid->cell_columns,
-                     kit.grid->cell_rows, run["ray count"], run["pixel of slot"],
+                     kit.grid->cell_rows, run["sampling masks"], run["list offsets"],
                      run["sampled colour"], run["surface depth"], run["surface geometric normal"],
                      run["support image"], run["support geometry"])
-                .launch(name, {kit.kit.slots()}, {kGroup});
+                .launch(name, {kit.packets()}, {kGroup});
         };
     };
     return stage;

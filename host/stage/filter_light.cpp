@@ -1,6 +1,12 @@
 #include "host/stage/filter_light.hpp"
 
 namespace macula::stage {
+namespace {
+
+// The list fills the first part of the launch alone: small groups share that out.
+constexpr std::size_t kListGroup = 8;
+
+} // namespace
 
 frame::Stage filter_light(const FoveatedKit& kit, const std::string& light,
                           const std::string& buffer, std::uint32_t light_bytes) {
@@ -22,7 +28,7 @@ frame::Stage filter_light(const FoveatedKit& kit, const std::string& light,
                      grid.mesh_rows, run["mesh vertices"], run["pixel keys"], run["history kept"],
                      run.last(buffer), run["ray count"], run["pixel of slot"], run["surface depth"],
                      run[light], run["filtered light"])
-                .launch(name, {kit.kit.slots()}, {kGroup});
+                .launch(name, {kit.packets()}, {kListGroup});
         };
     };
     return stage;

@@ -17,7 +17,6 @@ typedef struct Search {
     global const uint* keys;
     global const LightValue* past_light;
     MeshTables mesh;
-    float depth; /* of the sample */
 } Search;
 
 /* Reconstructed from the cache rather than resampled. MACULA_NO_KEY is odd, too. */
@@ -61,18 +60,21 @@ static inline int window_of(const Search* s, int x, int y) {
     return d <= farthest ? d : 0;
 }
 
-/* The reprojected light of a reconstructed pixel, unlit where it belongs to another surface. */
-static inline LightValue light_of(const Search* s, int x, int y) {
+#define NO_TEXEL (-1)
+
+/* The texel of last frame's light that a reconstructed pixel shows; NO_TEXEL where that belongs to
+ * another surface. */
+static inline int texel_of(const Search* s, float depth, int x, int y) {
     const uint key = s->keys[(uint)y * s->weier->pitch + (uint)x];
     const History h = find_history(&s->mesh, s->weier, key, (float)x + 0.5f, (float)y + 0.5f);
-    const float same = fabs(fma(s->depth, h.inverse_depth, -1.0f));
-    if (!h.found || !(same <= s->weier->merge_threshold))
-        return UNLIT;
-    return kept_light(s->past_light[texel_index((int)rint(floor(h.at.x)), (int)rint(floor(h.at.y)),
-                                                s->frame->width, s->frame->height)]);
+    const float apart = fabs(fma(depth, h.inverse_depth, -1.0f));
+    if (!h.found || !(apart <= s->weier->merge_threshold))
+        return NO_TEXEL;
+    return (int)texel_index((int)rint(floor(h.at.x)), (int)rint(floor(h.at.y)), s->frame->width,
+                            s->frame->height);
 }
 
-static inline uint8 random_mix8(uint8 x) {
+static inline uint16 random_mix16(uint16 x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
     x ^= x >> 15;
@@ -81,11 +83,13 @@ static inline uint8 random_mix8(uint8 x) {
     return x;
 }
 
-/* random_unit() of lib/random.h for eight samples. */
-static inline float8 random_units(uint key, uint8 sample, uint dimension) {
-    const uint8 bits =
-        random_mix8(key ^ random_mix8(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
-    return convert_float8(bits >> 8) * 0x1p-24f;
+/* random_unit() of lib/random.h for eight tries from `first` on, in two dimensions. */
+static inline float16 random_places(uint key, uint first) {
+    const uint16 sample = first + (as_uint16(MACULA_LANES16) & 7u);
+    const uint16 dimension = MACULA_DIMENSION_LIGHT_FILTER + (as_uint16(MACULA_LANES16) >> 3);
+    const uint16 bits =
+        random_mix16(key ^ random_mix16(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
+    return convert_float16(bits >> 8) * 0x1p-24f;
 }
 
 static inline uint least_lane8(uint8 v) {
@@ -94,20 +98,26 @@ static inline uint least_lane8(uint8 v) {
     return min(b.x, b.y);
 }
 
+/* A pixel that looks for light. */
+typedef struct Seeker {
+    int x, y;
+    float depth;
+    uint random;  /* key of its numbers */
+    int lit_only; /* 0: whether the light is any is left to the caller */
+} Seeker;
+
 #define NO_CANDIDATE 0xffffffffu
 
-/* The light of the nearest of up to eight places, tried from the nearest on; of several as near the
- * first. Places: eight tries from `first` on, in the square around x, y that reaches `window`
- * pixels far. `least`: squared distance that counts no more; lowered to the one found. */
-static inline LightValue nearest_of_eight(const Search* s, int x, int y, int window, uint random,
-                                          uint first, int* least) {
-    const uint8 tries = first + (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+/* The texel of the nearest of eight places, from try `first` on, in the square that reaches
+ * `window` pixels far; of several as near the first. `least`: squared distance that counts no more;
+ * lowered to that of the one found. */
+static inline int nearest_of_eight(const Search* s, const Seeker* seeker, int window, uint first,
+                                   int* least) {
     const float reach = (float)(2 * window + 1);
-    const float8 u = random_units(random, tries, MACULA_DIMENSION_LIGHT_FILTER);
-    const float8 v = random_units(random, tries, MACULA_DIMENSION_LIGHT_FILTER + 1u);
-    const int8 dx = convert_int8(floor(u * reach)) - window;
-    const int8 dy = convert_int8(floor(v * reach)) - window;
-    const int8 distance = dx * dx + dy * dy, at_x = x + dx, at_y = y + dy;
+    const int16 steps = convert_int16(floor(random_places(seeker->random, first) * reach)) - window;
+    const int8 dx = steps.lo, dy = steps.hi;
+    const int8 distance = dx * dx + dy * dy, at_x = seeker->x + dx, at_y = seeker->y + dy;
+    const uint8 tries = first + (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
     const int8 wanted = (at_x >= 0) & (at_y >= 0) & (at_x < (int)s->frame->width) &
                         (at_y < (int)s->frame->height) & (distance < *least) &
                         (tries < s->weier->filter_tries);
@@ -121,37 +131,73 @@ static inline LightValue nearest_of_eight(const Search* s, int x, int y, int win
     vstore8(at_x, 0, column);
     vstore8(at_y, 0, row);
     for (uint next = least_lane8(order); next != NO_CANDIDATE; next = least_lane8(order)) {
-        const LightValue found = light_of(s, column[next & 7u], row[next & 7u]);
-        if (is_lit(found)) {
+        const int texel = texel_of(s, seeker->depth, column[next & 7u], row[next & 7u]);
+        if (texel != NO_TEXEL && (seeker->lit_only == 0 || is_lit(s->past_light[texel]))) {
             *least = (int)(next >> 3);
-            return found;
+            return texel;
         }
         order = order == next ? (uint8)(NO_CANDIDATE) : order;
     }
-    return UNLIT;
+    return NO_TEXEL;
 }
 
-static inline LightValue search(const Search* s, int x, int y, uint random) {
-    const int window = window_of(s, x, y);
-    LightValue best = UNLIT;
-    int least = 0x7fffffff;
+static inline Seeker seeker_of(global const FrameParams* frame, uint sample, int x, int y,
+                               float depth, int lit_only) {
+    const uint pixel = (uint)y * frame->width + (uint)x;
+    Seeker seeker;
+    seeker.x = x;
+    seeker.y = y;
+    seeker.depth = depth;
+    seeker.random = random_mix(random_key(pixel, frame->frame, frame->seed) + sample);
+    seeker.lit_only = lit_only;
+    return seeker;
+}
+
+static inline int nearest_texel(const Search* s, const Seeker* seeker) {
+    const int window = window_of(s, seeker->x, seeker->y);
+    int best = NO_TEXEL, least = 0x7fffffff;
     for (uint k = 0u; window > 0 && k < s->weier->filter_tries; k += 8u) {
-        const LightValue found = nearest_of_eight(s, x, y, window, random, k, &least);
-        best = is_lit(found) ? found : best;
+        const int found = nearest_of_eight(s, seeker, window, k, &least);
+        best = found != NO_TEXEL ? found : best;
     }
     return best;
 }
 
-static inline bool in_fovea(global const FrameParams* frame, global const WeierParams* weier,
-                            uint x, uint y) {
-    const float3 direction = camera_direction(&frame->camera, frame->width, frame->height,
-                                              (float)x + 0.5f, (float)y + 0.5f);
-    const float cosine =
-        dot3(direction, vector_at(frame->gaze)) * m_inverse_sqrt(dot3(direction, direction));
-    return cosine >= cosine_of_eccentricity(weier->r0 * frame->gaze_widening);
+/* Lanes outside of r0. */
+static inline int16 outside_fovea(global const FrameParams* frame, global const WeierParams* weier,
+                                  int16 x, int16 y) {
+    global const Camera* camera = &frame->camera;
+    const float3 gaze = vector_at(frame->gaze);
+    const float right = dot3(gaze, vector_at(camera->right)),
+                up = dot3(gaze, vector_at(camera->up));
+    const float forward = dot3(gaze, vector_at(camera->forward));
+    const float step_x = m_divide(camera->tan_right + camera->tan_left, (float)frame->width);
+    const float step_y = m_divide(camera->tan_up + camera->tan_down, (float)frame->height);
+    const float16 sx =
+        fma(convert_float16(x) + 0.5f, (float16)(step_x), (float16)(-camera->tan_left));
+    const float16 sy =
+        fma(convert_float16(y) + 0.5f, (float16)(-step_y), (float16)(camera->tan_up));
+    const float16 along = fma((float16)(right), sx, fma((float16)(up), sy, (float16)(forward)));
+    const float16 squared = fma(sx, sx, fma(sy, sy, (float16)(1.0f)));
+    const float r0 = weier->r0 * frame->gaze_widening;
+    return along * m_inverse_sqrt16(squared) < cosine_of_eccentricity(r0);
 }
 
-/* One work-item a slot of the list. */
+/* Rows of pixels' indices: a quotient by way of floats, put right by the remainder. */
+static inline int16 rows_of(int16 pixel, uint width) {
+    const int16 guess = convert_int16(convert_float16(pixel) * m_divide(1.0f, (float)width));
+    const int16 rest = pixel - guess * (int)width;
+    return guess + (rest < 0) - (rest >= (int)width);
+}
+
+/* Noise is smaller than MOST_NOISE; a shadow's edge or a turn of the surface is not. */
+static inline bool is_noise(LightValue here, LightValue there) {
+    const float a = strength_of(here), b = strength_of(there);
+    return is_lit(there) && fabs(a - b) <= MOST_NOISE * m_max(a, b);
+}
+
+/* One work-item sixteen slots of the list. All of them search before the first light is read, so
+ * that they wait for memory together. */
 kernel void
 filter_light(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
              uint sample, global const float* restrict mesh_columns,
@@ -160,24 +206,54 @@ filter_light(global const FrameParams* restrict frame, global const WeierParams*
              global const LightValue* restrict past_light, global const uint* restrict ray_count,
              global const uint* restrict pixels, global const float* restrict depth,
              global const LightValue* restrict light, global LightValue* restrict filtered) {
-    const uint slot = (uint)get_global_id(0);
-    if (slot >= *ray_count)
+    const uint first = (uint)get_global_id(0) * 16u;
+    if (first >= *ray_count)
         return;
-    filtered[slot] = light[slot];
-    const uint pixel = pixels[slot];
-    if (pixel == MACULA_NO_PIXEL || *history_kept == 0u)
+    for (uint lane = 0u; lane < 16u; ++lane)
+        filtered[first + lane] = light[first + lane];
+    if (*history_kept == 0u)
         return;
-    const uint y = pixel / frame->width, x = pixel - y * frame->width;
-    const Search s = {frame,      weier, keys, past_light, {vertices, mesh_columns, mesh_rows},
-                      depth[slot]};
-    const uint key = keys[y * weier->pitch + x];
-    const bool resampled = (key & 1u) != 0u && (key != MACULA_NO_KEY || weier->resample_new != 0u);
-    if (!resampled || in_fovea(frame, weier, x, y) || s.depth >= MACULA_BACKGROUND_DEPTH)
+    const uint16 pixel = vload16(0, pixels + first);
+    const int16 used = pixel != MACULA_NO_PIXEL;
+    const int16 place = used ? as_int16(pixel) : (int16)(0);
+    const int16 y = rows_of(place, frame->width), x = place - y * (int)frame->width;
+    const int16 i = y * (int)weier->pitch + x;
+    const uint16 key =
+        (uint16)(keys[i.s0], keys[i.s1], keys[i.s2], keys[i.s3], keys[i.s4], keys[i.s5], keys[i.s6],
+                 keys[i.s7], keys[i.s8], keys[i.s9], keys[i.sa], keys[i.sb], keys[i.sc], keys[i.sd],
+                 keys[i.se], keys[i.sf]);
+    int16 resampled =
+        used & ((key & 1u) != 0u) & (vload16(0, depth + first) < MACULA_BACKGROUND_DEPTH);
+    if (weier->resample_new == 0u)
+        resampled &= key != MACULA_NO_KEY;
+    uint seeking = bits_of_lanes16(resampled);
+    if (seeking == 0u)
         return;
-    const uint random = random_mix(random_key(pixel, frame->frame, frame->seed) + sample);
-    const LightValue found = search(&s, (int)x, (int)y, random);
-    /* Noise is smaller than this; a shadow's edge or a turn of the surface is not. */
-    const float here = strength_of(light[slot]), there = strength_of(found);
-    if (is_lit(found) && fabs(here - there) <= MOST_NOISE * m_max(here, there))
-        filtered[slot] = found;
+    seeking &= bits_of_lanes16(outside_fovea(frame, weier, x, y));
+
+    const Search s = {frame, weier, keys, past_light, {vertices, mesh_columns, mesh_rows}};
+    int column[16], row[16], texel[16];
+    vstore16(x, 0, column);
+    vstore16(y, 0, row);
+    for (uint lanes = seeking; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        const Seeker seeker =
+            seeker_of(frame, sample, column[lane], row[lane], depth[first + lane], 0);
+        texel[lane] = nearest_texel(&s, &seeker);
+        MACULA_FETCH(past_light, (long)texel[lane] * (long)sizeof(LightValue));
+    }
+    for (uint lanes = seeking; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        if (texel[lane] == NO_TEXEL)
+            continue;
+        LightValue found = past_light[texel[lane]];
+        if (!is_lit(found)) {
+            const Seeker seeker =
+                seeker_of(frame, sample, column[lane], row[lane], depth[first + lane], 1);
+            const int other = nearest_texel(&s, &seeker);
+            found = other != NO_TEXEL ? past_light[other] : UNLIT;
+        }
+        if (is_noise(light[first + lane], found))
+            filtered[first + lane] = found;
+    }
 }

@@ -34,4 +34,23 @@ static inline LightValue kept_light(LightValue v) {
     return is_lit(v) ? v : UNLIT;
 }
 
+/* Four neighbours, and the same for each of them. */
+#if MACULA_LIGHT == 4
+typedef float16 LightRow;
+#define STORE_LIGHTS(row, to) vstore16(row, 0, to)
+static inline LightRow kept_lights(LightRow v) {
+    int16 lit = (v >= 0.0f) & (v < 1e30f);
+    lit.s37bf = (int4)(-1);
+    lit &= lit.s1032547698badcfe;
+    lit &= lit.s23016745ab89efcd;
+    return lit ? v : (LightRow)(-1.0f);
+}
+#else
+typedef float4 LightRow;
+#define STORE_LIGHTS(row, to) vstore4(row, 0, to)
+static inline LightRow kept_lights(LightRow v) {
+    return ((v >= 0.0f) & (v < 1e30f)) ? v : (LightRow)(-1.0f);
+}
+#endif
+
 #endif

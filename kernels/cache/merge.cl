@@ -138,6 +138,22 @@ static inline void take_fresh(const Packet* p, const Samples* samples, const Out
     }
 }
 
+/* The light of a row's four histories. */
+MACULA_ALWAYS_INLINE void keep_lights(global const LightValue* past, const int* nearest, uint lanes,
+                                      global LightValue* light) {
+    const LightRow row = kept_lights(
+        (LightRow)(past[nearest[0]], past[nearest[1]], past[nearest[2]], past[nearest[3]]));
+    if (lanes == 15u) {
+        STORE_LIGHTS(row, (global float*)light);
+        return;
+    }
+    LightValue values[4];
+    STORE_LIGHTS(row, (float*)values);
+    for (uint k = 0u; k < 4u; ++k)
+        if ((lanes >> k & 1u) != 0u)
+            light[k] = values[k];
+}
+
 /* Histories are kept row by row, samples and gaps come afterwards. Returns the lanes whose history
  * is sound: what is not a number stays out of the cache. */
 MACULA_ALWAYS_INLINE uint keep_row(const Packet* p, const Past* past, const Lanes* t,
@@ -169,9 +185,7 @@ MACULA_ALWAYS_INLINE uint keep_row(const Packet* p, const Past* past, const Lane
             }
     }
     if (out->light)
-        for (uint k = 0u; k < 4u; ++k)
-            if ((wanted >> k & 1u) != 0u)
-                out->light[pixel + k] = kept_light(past->light[nearest[k]]);
+        keep_lights(past->light, nearest, lanes, out->light + pixel);
     uint kept = 15u;
     const int4 whole = finite.s048c & finite.s159d & finite.s26ae & sound;
     const int2 half_of = whole.lo & whole.hi;
@@ -233,6 +247,10 @@ MACULA_ALWAYS_INLINE void fetch_ahead(global const FrameParams* frame, uint pack
         MACULA_FETCH(past->info, (pixel + motion) * (long)sizeof(uint2));
         MACULA_FETCH_TO_WRITE(out->colour, pixel * (long)sizeof(float4));
         MACULA_FETCH_TO_WRITE(out->info, pixel * (long)sizeof(uint2));
+        if (out->light) {
+            MACULA_FETCH(past->light, (pixel + motion) * (long)sizeof(LightValue));
+            MACULA_FETCH_TO_WRITE(out->light, pixel * (long)sizeof(LightValue));
+        }
     }
 }
 

@@ -24,10 +24,6 @@ MACULA_ALWAYS_INLINE int16 lanes_of(uint bits) {
     return ((int16)((int)bits) >> MACULA_LANES16 & 1) != 0;
 }
 
-MACULA_ALWAYS_INLINE uint first_lane(uint bits) {
-    return popcount((bits & -bits) - 1u);
-}
-
 /* Pixels of a footprint whose squared length is above this are filtered (section 3.2): up to half a
  * texel more than one, four neighbours are filter enough. */
 #define MACULA_WIDE_FOOTPRINT 2.25f

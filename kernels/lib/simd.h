@@ -25,6 +25,10 @@ static inline uint bits_of_lanes16(int16 mask) {
     return (uint)(bits.x | bits.y << 8);
 }
 
+static inline uint first_lane(uint bits) {
+    return popcount((bits & -bits) - 1u);
+}
+
 static inline float greatest_lane16(float16 v) {
     const float8 a = v.lo > v.hi ? v.lo : v.hi;
     const float4 b = a.lo > a.hi ? a.lo : a.hi;

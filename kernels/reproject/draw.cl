@@ -10,7 +10,7 @@
 #define OVERLAP 0.002f
 
 typedef struct Tile {
-    int left, top, right, bottom; /* pixels, ends excluded; left is a multiple of 16 */
+    int left, top, right, bottom; /* pixels, ends excluded; an even number of rows */
 } Tile;
 
 MACULA_ALWAYS_INLINE uint16 ranks(float16 inverse_depth, uint depth_bits) {
@@ -23,44 +23,44 @@ MACULA_ALWAYS_INLINE uint16 ranks(float16 inverse_depth, uint depth_bits) {
     return steps == 0u ? (uint16)(last - 1u) : last - steps;
 }
 
-/* A triangle's functions on a row: at its first pixel's column 0, and for one pixel to the right.
- */
-MACULA_ALWAYS_INLINE float16 on_row(global const float* cell, uint field, float16 x, float start) {
-    return fma((float16)(cell[field * 16u]), x, (float16)(start));
+/* A triangle's function at places relative to the cell's first corner. */
+MACULA_ALWAYS_INLINE float16 over_triangle(global const float* cell, uint field, float16 x,
+                                           float16 y, float at) {
+    return fma((float16)(cell[field * 16u]), x,
+               fma((float16)(cell[(field + 1u) * 16u]), y, (float16)(at)));
 }
 
 MACULA_ALWAYS_INLINE int16 inside_triangle(float16 b, float16 c) {
     return (b >= -OVERLAP) & (c >= -OVERLAP) & (b + c <= 1.0f + OVERLAP);
 }
 
-/* Sixteen pixels a step: the column of `x` on all rows of the cell that lie in the tile. */
+/* Eight pixels of two rows a step: lanes 0 to 7 lie above the others. x to x + 7 and the rows from
+ * the even `top` on must lie in the tile. */
 MACULA_ALWAYS_INLINE void draw_columns(global const float* cell, uint depth_bits, uint pitch, int x,
                                        int top, int bottom, global uint* keys) {
     const float16 to_x =
-        (convert_float16((int16)(x) + MACULA_LANES16) + 0.5f) - cell[MACULA_OUTLINE_X * 16u];
+        (convert_float16((int16)(x) + (MACULA_LANES16 & 7)) + 0.5f) - cell[MACULA_OUTLINE_X * 16u];
+    const float16 below = convert_float16(MACULA_LANES16 >> 3) + 0.5f;
     const float origin_y = cell[MACULA_OUTLINE_Y * 16u], depth = cell[MACULA_OUTLINE_DEPTH * 16u];
     const uint place = as_uint(cell[MACULA_OUTLINE_KEY * 16u]), shift = 32u - depth_bits;
     const uint upper = MACULA_OUTLINE_UPPER, lower = MACULA_OUTLINE_LOWER;
-    for (int y = top; y < bottom; ++y) {
-        const float to_y = ((float)y + 0.5f) - origin_y;
-        const float16 upper_b =
-            on_row(cell, upper + MACULA_PER_PIXEL_B, to_x, cell[(upper + 1u) * 16u] * to_y);
-        const float16 upper_c =
-            on_row(cell, upper + MACULA_PER_PIXEL_C, to_x, cell[(upper + 3u) * 16u] * to_y);
-        const float16 lower_b =
-            on_row(cell, lower + MACULA_PER_PIXEL_B, to_x, cell[(lower + 1u) * 16u] * to_y);
-        const float16 lower_c =
-            on_row(cell, lower + MACULA_PER_PIXEL_C, to_x, cell[(lower + 3u) * 16u] * to_y);
-        const int16 in_upper = inside_triangle(upper_b, upper_c);
-        const int16 in_lower = inside_triangle(lower_b, lower_c);
-        const float16 upper_depth = on_row(cell, upper + MACULA_PER_PIXEL_INVERSE, to_x,
-                                           fma(cell[(upper + 5u) * 16u], to_y, depth));
-        const float16 lower_depth = on_row(cell, lower + MACULA_PER_PIXEL_INVERSE, to_x,
-                                           fma(cell[(lower + 5u) * 16u], to_y, depth));
+    for (int y = top; y < bottom; y += 2) {
+        const float16 to_y = ((float)y + below) - origin_y;
+        const int16 in_upper =
+            inside_triangle(over_triangle(cell, upper + MACULA_PER_PIXEL_B, to_x, to_y, 0.0f),
+                            over_triangle(cell, upper + MACULA_PER_PIXEL_C, to_x, to_y, 0.0f));
+        const int16 in_lower =
+            inside_triangle(over_triangle(cell, lower + MACULA_PER_PIXEL_B, to_x, to_y, 0.0f),
+                            over_triangle(cell, lower + MACULA_PER_PIXEL_C, to_x, to_y, 0.0f));
+        const float16 upper_depth =
+            over_triangle(cell, upper + MACULA_PER_PIXEL_INVERSE, to_x, to_y, depth);
+        const float16 lower_depth =
+            over_triangle(cell, lower + MACULA_PER_PIXEL_INVERSE, to_x, to_y, depth);
         const uint16 rank = ranks(in_upper ? upper_depth : lower_depth, depth_bits);
         const uint16 key = (in_upper | in_lower) ? rank << shift | place : (uint16)(MACULA_NO_KEY);
         global uint* row = keys + (uint)y * pitch + (uint)x;
-        vstore16(min(vload16(0, row), key), 0, row);
+        vstore8(min(vload8(0, row), key.lo), 0, row);
+        vstore8(min(vload8(0, row + pitch), key.hi), 0, row + pitch);
     }
 }
 
@@ -76,11 +76,12 @@ MACULA_ALWAYS_INLINE void draw_cells(global const float* block, const Tile* tile
     for (uint lanes = bits_of_lanes16(met); lanes != 0u; lanes &= lanes - 1u) {
         const uint lane = popcount((lanes & -lanes) - 1u);
         global const int* cell = numbers + lane;
-        const int y_begin = max(cell[MACULA_OUTLINE_TOP * 16u], tile->top);
+        const int y_begin = max(cell[MACULA_OUTLINE_TOP * 16u], tile->top) & ~1;
         const int y_end = min(cell[MACULA_OUTLINE_BOTTOM * 16u], tile->bottom);
         const int x_end = min(cell[MACULA_OUTLINE_RIGHT * 16u], tile->right);
-        for (int x = max(cell[MACULA_OUTLINE_LEFT * 16u], tile->left) & ~15; x < x_end; x += 16)
-            draw_columns(block + lane, depth_bits, pitch, x, y_begin, y_end, keys);
+        for (int x = max(cell[MACULA_OUTLINE_LEFT * 16u], tile->left); x < x_end; x += 8)
+            draw_columns(block + lane, depth_bits, pitch, min(x, tile->right - 8), y_begin, y_end,
+                         keys);
     }
 }
 
