@@ -112,7 +112,15 @@ std::string CsvTable::title_or_number(std::size_t column) const {
 
 double CsvTable::number(std::size_t row, std::size_t column) const {
     double value = 0.0;
-    if (!parse(text(row, column), value) || !std::isfinite(value))
+    bool read = parse(text(row, column), value);
+    if (!read && separator_ != ',') {
+        std::string point(text(row, column));
+        if (const std::size_t comma = point.find(','); comma != std::string::npos) {
+            point[comma] = '.';
+            read = parse(std::string_view(point), value);
+        }
+    }
+    if (!read || !std::isfinite(value))
         fail(row, "column " + title_or_number(column) + ": \"" + std::string(text(row, column)) +
                       "\" is no finite number");
     return value;

@@ -12,8 +12,9 @@
 namespace macula::scene {
 
 // Lines end with \n or \r\n; empty ones are skipped, and so is a byte order mark. Every row has as
-// many cells as the first. A cell in double quotes may hold the separator. Errors are SceneError,
-// their messages begin with file and line.
+// many cells as the first. A cell in double quotes may hold the separator. Where that is no comma,
+// a number may have a decimal comma. Errors are SceneError, their messages begin with file and
+// line.
 class CsvTable {
   public:
     enum class Header : std::uint8_t { present, absent };

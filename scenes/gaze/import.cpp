@@ -23,9 +23,11 @@ constexpr Format kFormats[] = {
     {"vive_pro_eye", "gaze_direct_L.x", ';', CsvTable::Header::present, import_vive_pro_eye},
     {"pico_neo3", "Combine Eye Gaze Vector. x", '\t', CsvTable::Header::present, import_pico_neo3},
     {"pupil_core", "gaze_timestamp", ',', CsvTable::Header::present, import_pupil_core},
-    {"pupil_neon", "azimuth [deg]", ',', CsvTable::Header::present, import_pupil_neon},
+    {"pupil_neon", "gaze x [px]", ',', CsvTable::Header::present, import_pupil_neon},
     {"tobii_pro_lab", "Gaze direction left X", '\t', CsvTable::Header::present,
      import_tobii_pro_lab},
+    {"tobii_sdk", "left_gaze_origin_in_user_coordinate_system", ',', CsvTable::Header::present,
+     import_tobii_sdk},
     {"head_quaternions", nullptr, ',', CsvTable::Header::absent, import_head_quaternions},
 };
 

@@ -17,7 +17,8 @@ struct ImportedTrace {
     std::vector<std::string> notes; // what was left out, with counts
 };
 
-// "vive_pro_eye", "pico_neo3", "head_quaternions", "pupil_core", "pupil_neon", "tobii_pro_lab".
+// "vive_pro_eye", "pico_neo3", "head_quaternions", "pupil_core", "pupil_neon", "tobii_pro_lab",
+// "tobii_sdk".
 std::vector<std::string> trace_formats();
 
 // `format` empty: told by the first line. Times start at 0 and gaze and head share them; rows whose

@@ -49,5 +49,6 @@ ImportedTrace import_head_quaternions(const CsvTable& table);
 ImportedTrace import_pupil_core(const CsvTable& table);
 ImportedTrace import_pupil_neon(const CsvTable& table);
 ImportedTrace import_tobii_pro_lab(const CsvTable& table);
+ImportedTrace import_tobii_sdk(const CsvTable& table);
 
 } // namespace macula::scene

@@ -109,6 +109,37 @@ TEST(ImportPupilCore, PointsDownInTheCameraAreDownInTheHead) {
     EXPECT_TRUE(t.head.samples.empty());
 }
 
+TEST(ImportPupilCore, APointBehindTheCameraIsNoDirection) {
+    // The eyes' axes diverge: they meet behind the head.
+    const ImportedTrace t = import_text(
+        "gaze_timestamp,world_index,confidence,norm_pos_x,norm_pos_y,base_data,gaze_point_3d_x,"
+        "gaze_point_3d_y,gaze_point_3d_z,eye_center0_3d_x,eye_center0_3d_y,eye_center0_3d_z,"
+        "gaze_normal0_x,gaze_normal0_y,gaze_normal0_z,eye_center1_3d_x,eye_center1_3d_y,"
+        "eye_center1_3d_z,gaze_normal1_x,gaze_normal1_y,gaze_normal1_z\n"
+        "7.5,0,0.9,0.5,0.5,1-1 0-1,-50,20,-900,20,15,-20,0.1,0,0.99,-40,15,-20,-0.06,0,0.99\n");
+    EXPECT_TRUE(t.gaze.samples[0].valid);
+    EXPECT_LT(t.gaze.samples[0].direction.z, -0.99);
+    EXPECT_NEAR(t.gaze.samples[0].direction.x, 0.02, 0.001);
+}
+
+TEST(ImportPupilNeon, WornAsANumberAndABlinkOfAnyNumber) {
+    const ImportedTrace t = import_text(
+        "section id,recording id,timestamp [ns],gaze x [px],gaze y [px],worn,fixation id,"
+        "blink id,azimuth [deg],elevation [deg]\n"
+        "a,b,1700000000000000000,1,2,1.0,1,,10,-5\n"
+        "a,b,1700000000005000000,1,2,1.0,,0,10,-5\n"
+        "a,b,1700000000010000000,1,2,0.0,,,10,-5\n"
+        "a,b,1700000000015000000,1,2,1.0,,,,\n");
+    EXPECT_TRUE(t.gaze.samples[0].valid);
+    for (std::size_t i = 1; i < 4; ++i)
+        EXPECT_FALSE(t.gaze.samples[i].valid) << i;
+}
+
+TEST(ImportPupilNeon, PixelsAloneAreAnErrorThatSaysSo) {
+    EXPECT_THAT([] { import_text("timestamp [ns],gaze x [px],gaze y [px]\n1,2,3\n"); },
+                testing::ThrowsMessage<SceneError>(testing::HasSubstr("azimuth [deg]")));
+}
+
 TEST(ImportPupilNeon, DegreesBlinksAndNotWorn) {
     const ImportedTrace t = import_text(
         "section id,recording id,timestamp [ns],gaze x [px],gaze y [px],worn,fixation id,"
@@ -157,6 +188,85 @@ TEST(ImportTobii, ScreenTrackersHaveXToTheRightAndMicroseconds) {
     EXPECT_GT(t.gaze.samples[0].direction.x, 0.0);
     EXPECT_LT(t.gaze.samples[0].direction.z, 0.0);
     EXPECT_EQ(t.gaze.samples[1].time_ns, 4'000'000);
+}
+
+TEST(ImportTobii, WithoutAUnitTheStepTellsMillisecondsFromMicroseconds) {
+    std::string rows;
+    for (const char* ms : {"0", "17", "33", "50"})
+        rows += std::string(ms) +
+                "\tEye Tracker\t0.1\t0.2\t-0.97\t0.1\t0.2\t-0.97\tValid\tValid\n" + ms +
+                "\tMouse\t\t\t\t\t\t\t\t\n";
+    const ImportedTrace t = import_text(tobii(rows, "Recording timestamp"));
+    EXPECT_EQ(t.gaze.samples[3].time_ns, 50'000'000);
+    EXPECT_EQ(import_text(tobii(rows, "Recording timestamp [\xce\xbcs]")).gaze.samples[3].time_ns,
+              50'000);
+}
+
+TEST(ImportTobii, DecimalCommasAndAByteOrderMark) {
+    const ImportedTrace t =
+        import_text("\xef\xbb\xbf" +
+                    tobii("0\tEye Tracker\t0,1\t0,2\t-0,97\t0,1\t0,2\t-0,97\tValid\tValid\r\n"));
+    EXPECT_NEAR(t.gaze.samples[0].direction.x, 0.1 / std::sqrt(0.01 + 0.04 + 0.97 * 0.97), 1e-9);
+}
+
+TEST(ImportTobii, OlderExportsNameTheDisplayWithTheEyesPositions) {
+    std::string text = tobii("0\tEye Tracker\t0.1\t0.2\t-0.97\t0.1\t0.2\t-0.97\tValid\tValid\t1\n");
+    text.insert(text.find('\n'), "\tEye position left X (DACSmm)");
+    EXPECT_LT(import_text(text).gaze.samples[0].direction.y, 0.0);
+}
+
+TEST(ImportTobii, AnUnknownValidityIsAnError) {
+    EXPECT_THAT([] { import_text(tobii("0\tEye Tracker\t0\t0\t-1\t0\t0\t-1\t0\t4\n")); },
+                testing::ThrowsMessage<SceneError>(testing::HasSubstr("neither \"Valid\" nor")));
+}
+
+const std::string kSdkTitles =
+    "device_time_stamp,system_time_stamp,left_gaze_point_on_display_area,"
+    "left_gaze_point_in_user_coordinate_system,left_gaze_point_validity,"
+    "left_gaze_origin_in_user_coordinate_system,left_gaze_origin_validity,"
+    "right_gaze_point_in_user_coordinate_system,right_gaze_point_validity,"
+    "right_gaze_origin_in_user_coordinate_system,right_gaze_origin_validity\n";
+
+TEST(ImportTobiiSdk, ADirectionIsThePointLessTheOrigin) {
+    const ImportedTrace t = import_text(
+        kSdkTitles + "1000,5,\"(0.2, 0.5)\",\"(-88.0, 40.0, 0.0)\",1,\"(-30.0, 40.0, 580.0)\",1,"
+                     "\"(32.0, 98.0, 0.0)\",1,\"(32.0, 40.0, 580.0)\",1\n"
+                     "1833,6,,\"(nan, nan, nan)\",0,\"(-30.0, 40.0, 580.0)\",1,"
+                     "\"(32.0, 98.0, 0.0)\",1,\"(32.0, 40.0, 580.0)\",1\n"
+                     "2666,7,,\"(nan, nan, nan)\",0,\"(nan, nan, nan)\",0,"
+                     "\"(nan, nan, nan)\",0,\"(nan, nan, nan)\",0\n");
+    EXPECT_EQ(t.format, "tobii_sdk");
+    ASSERT_EQ(t.gaze.samples.size(), 3u);
+    const GazeSample& first = t.gaze.samples[0];
+    EXPECT_NEAR(first.left->x, -0.1 / std::sqrt(1.01), 1e-9);
+    EXPECT_NEAR(first.right->y, 0.1 / std::sqrt(1.01), 1e-9);
+    EXPECT_LT(first.direction.z, -0.99);
+    EXPECT_EQ(t.gaze.samples[1].time_ns, 833'000);
+    EXPECT_EQ(t.gaze.samples[1].confidence, 0.5);
+    EXPECT_FALSE(t.gaze.samples[2].valid);
+}
+
+TEST(ImportTobiiSdk, AColumnForEachComponentWillDo) {
+    for (const std::string& ends : {std::string("xyz"), std::string("012")}) {
+        std::string titles = "system_time_stamp", values = "5";
+        for (const char* name :
+             {"left_gaze_origin", "left_gaze_point", "right_gaze_origin", "right_gaze_point"})
+            for (std::size_t i = 0; i < 3; ++i) {
+                const bool point = std::string(name).find("point") != std::string::npos;
+                titles += std::string(",") + name + "_in_user_coordinate_system_" + ends[i];
+                values += i == 2 && !point ? ",600" : i == 0 && point ? ",60" : ",0";
+            }
+        const ImportedTrace t = import_text(titles + '\n' + values + '\n');
+        EXPECT_NEAR(t.gaze.samples[0].direction.x, 0.1 / std::sqrt(1.01), 1e-9);
+    }
+}
+
+TEST(ImportTobiiSdk, BadVectorsNameTheLine) {
+    for (const char* bad : {"\"(1, 2)\"", "\"1, 2, 3\"", "\"(1, 2, x)\"", "\"(1, 2, 3, 4)\"",
+                            "\"(1, 2, 1e9)\"", "\"(\"", "\"()\""})
+        EXPECT_THAT([&] { import_text(kSdkTitles + "1,1,," + bad + ",1,\"(0, 0, 9)\",1,,0,,0\n"); },
+                    testing::ThrowsMessage<SceneError>(testing::HasSubstr(":2: ")))
+            << bad;
 }
 
 TEST(ImportTobii, DisplayCoordinatesHaveYDown) {
