@@ -32,7 +32,7 @@ struct Kit {
 
     std::uint32_t slots() const; // of the order of lib/camera.h; a multiple of 1024
     std::uint64_t pixels() const { return std::uint64_t{width} * height; }
-    // A shading kernel for that many lanes, and its launch over `count` slots, a multiple of kGroup.
+    // A shading kernel for that many lanes; its launch over `count` slots, a multiple of kGroup.
     compute::Kernel lane_kernel(const char* program, const char* entry) const;
     compute::Range lane_items(std::uint32_t count) const { return {count / lanes}; }
     compute::Range lane_group() const;
