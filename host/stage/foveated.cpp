@@ -42,9 +42,11 @@ std::uint32_t support_size(std::uint32_t wanted, std::uint32_t pixels, double ce
     return wanted;
 }
 
-// The pixel in the middle of the part of the image that belongs to a sample.
-std::uint32_t middle(std::uint32_t sample, std::uint32_t samples, std::uint32_t pixels) {
-    return static_cast<std::uint32_t>((std::uint64_t{2} * sample + 1) * pixels / (2 * samples));
+// The pixel of a sample. The outermost samples are the outermost pixels: what lay between them and
+// the image's edge would be in no cell of the mesh, and would stay there when it leaves the view.
+std::uint32_t pixel_of(std::uint32_t sample, std::uint32_t samples, std::uint32_t pixels) {
+    const std::uint64_t steps = samples - 1;
+    return static_cast<std::uint32_t>((std::uint64_t{sample} * (pixels - 1) + steps / 2) / steps);
 }
 
 struct Axis {
@@ -56,8 +58,8 @@ Axis make_axis(std::uint32_t samples, std::uint32_t pixels) {
     Axis axis;
     axis.cells.assign(std::size_t{shared::tiles_across(pixels)} * MACULA_TILE, MACULA_NO_CELL);
     for (std::uint32_t i = 0; i < samples; ++i) {
-        axis.cells[middle(i, samples, pixels)] = i;
-        axis.places.push_back(static_cast<float>(middle(i, samples, pixels)) + 0.5f);
+        axis.cells[pixel_of(i, samples, pixels)] = i;
+        axis.places.push_back(static_cast<float>(pixel_of(i, samples, pixels)) + 0.5f);
     }
     axis.mesh = axis.places;
     axis.mesh.front() = 0.0f;

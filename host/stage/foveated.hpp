@@ -41,8 +41,8 @@ struct WeierOptions {
 shared::WeierParams make_params(const WeierOptions& options, std::uint32_t width,
                                 std::uint32_t height);
 
-// Tables of the support grid on the device, made when the first stage is prepared. A support sample
-// is the pixel in the middle of its cell of the image.
+// Tables of the support grid on the device, made when the first stage is prepared. The samples
+// are spread evenly from the first pixel to the last one.
 class SupportGrid {
   public:
     explicit SupportGrid(const shared::WeierParams& params) : params_(params) {}

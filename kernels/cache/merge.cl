@@ -55,8 +55,8 @@ static inline bool is_number(float4 colour) {
 static inline float4 from_support(global const float4* image, global const FrameParams* frame,
                                   global const WeierParams* weier, uint x, uint y) {
     const uint across = weier->support_width, down = weier->support_height;
-    const float sx = ((float)x + 0.5f) * m_divide((float)across, (float)frame->width);
-    const float sy = ((float)y + 0.5f) * m_divide((float)down, (float)frame->height);
+    const float sx = place_in_support(x, frame->width, across);
+    const float sy = place_in_support(y, frame->height, down);
     const int i = (int)rint(floor(sx)), j = (int)rint(floor(sy));
     const float tx = sx - (float)i, ty = sy - (float)j;
     const float rx = 1.0f - tx, ry = 1.0f - ty;

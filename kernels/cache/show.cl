@@ -13,10 +13,8 @@ static inline uint sampling_of(uint mask, uint lane) {
 /* The nearest support sample of a pixel. */
 static inline uint support_of(global const FrameParams* frame, global const WeierParams* weier,
                               uint x, uint y) {
-    const uint i =
-        (uint)(((float)x + 0.5f) * m_divide((float)weier->support_width, (float)frame->width));
-    const uint j =
-        (uint)(((float)y + 0.5f) * m_divide((float)weier->support_height, (float)frame->height));
+    const uint i = (uint)place_in_support(x, frame->width, weier->support_width);
+    const uint j = (uint)place_in_support(y, frame->height, weier->support_height);
     return min(j, weier->support_height - 1u) * weier->support_width +
            min(i, weier->support_width - 1u);
 }
