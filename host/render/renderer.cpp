@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::array kFormats = {
     ImageFormat{"colour", 4, 3, false, "linear RGB radiance, mean of the samples"},
-    ImageFormat{"lens image", 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
     ImageFormat{"albedo", 4, 3, false, "diffuse reflectance, linear RGB, mean of the samples"},
     ImageFormat{"irradiance", 4, 3, false, "direct light over pi, linear RGB, mean"},
     ImageFormat{"ambient occlusion", 1, 1, false, "part of the hemisphere that is open, mean"},
@@ -33,6 +32,8 @@ constexpr std::array kFormats = {
                 "1 depth, 2 luminance, 4 grazing, 8 stretched, 16 new: sum"},
     ImageFormat{"cache age", 1, 1, true, "frames since the last sample; 1048575: none"},
     ImageFormat{"rho", 1, 1, false, "samples that the colour is worth"},
+    // Where Options::lens is given.
+    ImageFormat{"lens image", 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
 };
 
 bool has_highlights(const scene::Scene& scene) {
