@@ -29,8 +29,8 @@ typedef struct Hits {
     Real3 direction;
 } Hits;
 
-/* Blocks are too long for the hardware to see where the next reads go; those of the work-items after
- * these are asked for early. */
+/* Blocks are too long for the hardware to see where the next reads go; those of the work-items
+ * after these are asked for early. */
 #define FETCH_AHEAD 6u
 
 static inline void fetch_hits(global const RayBlock* ray, global const HitBlock* found) {
