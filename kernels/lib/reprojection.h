@@ -35,8 +35,8 @@ MACULA_ALWAYS_INLINE uint cell_of_key(uint key, global const WeierParams* weier)
     return (key >> 1) & ((1u << (weier->cell_bits_x + weier->cell_bits_y)) - 1u);
 }
 
-/* Where a pixel lies among the support samples of its row or column, which reach from the first pixel
- * to the last: sample i is at i + 0.5. */
+/* Where a pixel lies among the support samples of its row or column, which reach from the first
+ * pixel to the last: sample i is at i + 0.5. */
 MACULA_ALWAYS_INLINE float place_in_support(uint pixel, uint pixels, uint samples) {
     return fma((float)pixel, m_divide((float)(samples - 1u), (float)(pixels - 1u)), 0.5f);
 }
