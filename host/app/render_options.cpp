@@ -109,6 +109,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
     engine.variant = options.variant;
+    engine.lanes = options.lanes;
     engine.weier = engine_options(options.weier);
     engine.lowres_scale = options.weier.lowres_scale;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
@@ -143,6 +144,10 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
     weier.add_to(command);
     command.add_option("--variant", variant, "Traversal variant for all rays");
+    command
+        .add_option("--lanes", lanes,
+                    "Rays that a work-item of the shading kernels works on; 0: by device")
+        ->check(CLI::IsMember({0, 1, 16}));
     command.add_option("--out", out, "Folder for the frames")->capture_default_str();
     command.add_option("--format", formats, "exr, png or both")->delimiter(',');
     command.add_option("--exposure", exposure, "Scale of the PNG's radiance")

@@ -20,6 +20,7 @@ namespace macula::app {
 struct RenderOptions : ViewOptions {
     std::string scene, device, method = "full", camera, path = "scene", frames, lights = "point",
                                variant;
+    std::uint32_t lanes = 0;
     std::uint32_t samples_per_pixel = 1, light_samples = 8, ambient_occlusion_samples = 16,
                   seed = 0;
     std::uint32_t scene_size = 0;

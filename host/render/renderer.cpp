@@ -121,7 +121,8 @@ struct Renderer::State {
                  stage::choose_variants(device, o.variant)),
           graph(make_graph({device, on_device->library, on_device->geometry, on_device->surfaces,
                             tracer, o.width, o.height, lights, settings.ambient_occlusion_samples,
-                            has_highlights(scene), ray_totals},
+                            has_highlights(scene), ray_totals,
+                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
                            o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());

@@ -38,6 +38,7 @@ struct Options {
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
     std::uint32_t seed = 0;
+    std::uint32_t lanes = 0; // ray slots to a work-item of the shading kernels: 1, 16; 0: by device
     std::string variant; // a traversal variant for all rays; empty: chosen for device and rays
     // Of the display; without them the camera's vertical field of view and square pixels.
     std::optional<frame::Tangents> tangents;

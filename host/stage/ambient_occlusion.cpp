@@ -13,16 +13,16 @@ class AmbientOcclusion {
   public:
     explicit AmbientOcclusion(const Kit& kit)
         : kit_(kit), compaction_(kit.library, kit.device, kit.slots()) {
-        const kernel::VariantKey key("shade/ambient_occlusion");
-        flag_ = kit.library.kernel(key, "flag_surfaces", kit.device);
-        generate_ = kit.library.kernel(key, "generate_ambient_occlusion_rays", kit.device);
-        average_ = kit.library.kernel(key, "average_ambient_occlusion", kit.device);
+        constexpr const char* program = "shade/ambient_occlusion";
+        flag_ = kit.lane_kernel(program, "flag_surfaces");
+        generate_ = kit.lane_kernel(program, "generate_ambient_occlusion_rays");
+        average_ = kit.lane_kernel(program, "average_ambient_occlusion");
     }
 
     void operator()(frame::Run& run) {
         run["surface openness"].fill(0);
         flag_.set(run["ray count"], run["surface triangle"], run.scratch("queue flags"))
-            .launch("flag surfaces", {kit_.slots()}, {kGroup});
+            .launch("flag surfaces", kit_.lane_items(kit_.slots()), kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
                         run.scratch("queue count"), "queue surfaces");
         const std::uint32_t samples = kit_.ambient_occlusion_samples;
@@ -35,14 +35,15 @@ class AmbientOcclusion {
                      run["surface shading normal"], run.scratch("queued rays"),
                      run.scratch("queued ray count"), kit_.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::ambient_occlusion))
-                .launch("generate ambient occlusion rays", {entries}, {kGroup});
+                .launch("generate ambient occlusion rays", kit_.lane_items(entries),
+                        kit_.lane_group());
             kit_.tracer.any(kernel::RayClass::ambient_occlusion, run.scratch("queued rays"),
                             run.scratch("queued ray count"), entries * samples,
                             run.scratch("occluded"), "trace ambient occlusion rays");
             average_
                 .set(run.params_buffer(), run.scratch("queue"), run.scratch("queue count"), first,
                      run.scratch("occluded"), run["surface openness"])
-                .launch("average ambient occlusion", {entries}, {kGroup});
+                .launch("average ambient occlusion", kit_.lane_items(entries), kit_.lane_group());
         });
     }
 

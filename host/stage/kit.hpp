@@ -27,12 +27,21 @@ struct Kit {
     bool highlights; // some material reflects specularly
     // Rays traced so far, by kernel::RayClass: one 64-bit counter each on the device.
     compute::Buffer ray_totals;
+    // Ray slots that a work-item of the shading kernels works on: 1 or 16 (lib/lanes.h).
+    std::uint32_t lanes = 1;
 
     std::uint32_t slots() const; // of the order of lib/camera.h; a multiple of 1024
     std::uint64_t pixels() const { return std::uint64_t{width} * height; }
+    // A shading kernel for that many lanes; its launch over `count` slots, a multiple of kGroup.
+    compute::Kernel lane_kernel(const char* program, const char* entry) const;
+    compute::Range lane_items(std::uint32_t count) const { return {count / lanes}; }
+    compute::Range lane_group() const;
 };
 
-// Work-items in a group of all shading kernels: slots and batches are multiples of it.
+// The lanes that suit a device: CPUs run sixteen of them in one work-item faster than as sixteen.
+std::uint32_t lanes_for(const compute::Device& device);
+
+// Slots of a group of all shading kernels: slots and batches are multiples of it.
 inline constexpr std::size_t kGroup = 64;
 
 // A resource with one entry for each ray slot, or for each pixel.

@@ -13,10 +13,10 @@ class DirectLight {
   public:
     explicit DirectLight(const Kit& kit)
         : kit_(kit), compaction_(kit.library, kit.device, kit.slots()) {
-        const kernel::VariantKey key("shade/light");
-        flag_ = kit.library.kernel(key, "flag_lit_surfaces", kit.device);
-        generate_ = kit.library.kernel(key, "generate_shadow_rays", kit.device);
-        add_ = kit.library.kernel(key, "add_light", kit.device);
+        constexpr const char* program = "shade/light";
+        flag_ = kit.lane_kernel(program, "flag_lit_surfaces");
+        generate_ = kit.lane_kernel(program, "generate_shadow_rays");
+        add_ = kit.lane_kernel(program, "add_light");
         lights_ = kit.device.upload(std::span(kit.lights), "lights");
     }
 
@@ -33,7 +33,7 @@ class DirectLight {
         flag_
             .set(run["ray count"], run["surface triangle"], run["surface position"],
                  run["surface geometric normal"], lights_, light, run.scratch("queue flags"))
-            .launch("flag lit surfaces", {kit_.slots()}, {kGroup});
+            .launch("flag lit surfaces", kit_.lane_items(kit_.slots()), kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
                         run.scratch("queue count"), "queue lit surfaces");
         const std::uint32_t samples = kit_.lights[light].samples;
@@ -45,7 +45,7 @@ class DirectLight {
                      run["surface position"], run["surface geometric normal"],
                      run.scratch("queued rays"), run.scratch("queued ray count"), kit_.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::shadow))
-                .launch("generate shadow rays", {entries}, {kGroup});
+                .launch("generate shadow rays", kit_.lane_items(entries), kit_.lane_group());
             kit_.tracer.any(kernel::RayClass::shadow, run.scratch("queued rays"),
                             run.scratch("queued ray count"), entries * samples,
                             run.scratch("occluded"), "trace shadow rays");
@@ -54,7 +54,7 @@ class DirectLight {
                      run["surface position"], run["surface geometric normal"],
                      run["surface shading normal"], run["surface specular"],
                      run.scratch("occluded"), run["surface irradiance"], run["surface highlight"])
-                .launch("add light", {entries}, {kGroup});
+                .launch("add light", kit_.lane_items(entries), kit_.lane_group());
         });
     }
 

@@ -19,8 +19,7 @@ frame::Stage resolve_surface(const Kit& kit) {
         per_slot(kit, "surface motion", 8),
     };
     stage.prepare = [kit, name = stage.name] {
-        auto kernel =
-            kit.library.kernel(kernel::VariantKey("shade/surface"), "resolve_surface", kit.device);
+        auto kernel = kit.lane_kernel("shade/surface", "resolve_surface");
         return [kit, name, kernel](frame::Run& run) mutable {
             // Any layout's instance table will do: its roots are not read here.
             const auto layout = kit.tracer.choice(kernel::RayClass::primary).variant->layout;
@@ -34,7 +33,7 @@ frame::Stage resolve_surface(const Kit& kit) {
                      run["surface geometric normal"], run["surface shading normal"],
                      run["surface albedo"], run["surface specular"], run["surface emission"],
                      run["surface triangle"], run["surface material"], run["surface motion"])
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, kit.lane_items(kit.slots()), kit.lane_group());
         };
     };
     return stage;

@@ -180,7 +180,7 @@ static inline int16 outside_fovea(global const FrameParams* frame, global const 
     const float16 along = fma((float16)(right), sx, fma((float16)(up), sy, (float16)(forward)));
     const float16 squared = fma(sx, sx, fma(sy, sy, (float16)(1.0f)));
     const float r0 = weier->r0 * frame->gaze_widening;
-    return along * m_inverse_sqrt16(squared) < cosine_of_eccentricity(r0);
+    return along * m_inverse_sqrt(squared) < cosine_of_eccentricity(r0);
 }
 
 /* Rows of pixels' indices: a quotient by way of floats, put right by the remainder. */

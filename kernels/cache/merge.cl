@@ -1,9 +1,9 @@
 /* Cache update and merge (Weier et al. 2016, section 3.4), together with the last step of the
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
+#include "cache/blend.h"
 #include "cache/light_value.h"
 #include "cache/texels.h"
-#include "lib/cache_info.h"
 #include "lib/camera.h"
 
 /* Last frame's images. */
@@ -12,14 +12,6 @@ typedef struct Past {
     global const uint2* info;
     global const LightValue* light;
 } Past;
-
-/* What the cache has for a pixel. */
-typedef struct Cache {
-    float4 colour;
-    LightValue light;
-    float rho;  /* 0: the colour is a guess */
-    uint touch; /* of lib/cache_info.h */
-} Cache;
 
 /* A footprint of several texels is sampled at normally distributed places (section 3.2). */
 static inline float4 filtered_colour(global const float4* image, const MeshTables* mesh,
@@ -88,24 +80,6 @@ static inline void take_sample(const Out* out, uint pixel, uint now, float4 colo
         out->light[pixel] = light[slot];
 }
 
-/* Equation 1. */
-static inline void blend_sample(const Out* out, uint pixel, uint now,
-                                global const WeierParams* weier, float4 colour,
-                                global const LightValue* light, uint slot, const Cache* cache) {
-    const float k = least_weight(age_of_touch(cache->touch, now), weier->log2_k_min,
-                                 weier->log2_k_slope, weier->k_max);
-    const float alpha = blending_weight(cache->rho, k);
-    const float4 blended = fma(colour - cache->colour, (float4)(alpha), cache->colour);
-    out->colour[pixel] = alpha < 1.0f ? (float4)(blended.xyz, 1.0f) : colour;
-    out->info[pixel] = (uint2)(as_uint(samples_worth(alpha, cache->rho)), pack_touch(alpha, now));
-    if (out->light) {
-        const LightValue lit = light[slot];
-        out->light[pixel] = alpha < 1.0f && is_lit(cache->light)
-                                ? fma(lit - cache->light, (LightValue)(alpha), cache->light)
-                                : lit;
-    }
-}
-
 /* Everything that a packet is made from. */
 typedef struct Packet {
     global const FrameParams* frame;
@@ -119,10 +93,6 @@ static inline uint pixel_of_lane(const Packet* p, uint lane) {
     return (p->y0 + (lane >> 2)) * p->frame->width + p->x0 + (lane & 3u);
 }
 
-static inline uint slot_of_lane(const Packet* p, uint lane) {
-    return p->first + popcount(p->sampled & ((1u << lane) - 1u));
-}
-
 /* What the samples bring. */
 typedef struct Samples {
     global const float4* colour;
@@ -130,12 +100,10 @@ typedef struct Samples {
     global const LightValue* light;
 } Samples;
 
-static inline void take_fresh(const Packet* p, const Samples* samples, const Out* out) {
-    for (uint lanes = p->fresh; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = first_lane(lanes), slot = slot_of_lane(p, lane);
-        take_sample(out, pixel_of_lane(p, lane), p->frame->frame, samples->colour[slot],
-                    samples->light, slot);
-    }
+static inline void take_samples(const Packet* p, const Samples* samples, const Out* out) {
+    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot)
+        take_sample(out, pixel_of_lane(p, first_lane(lanes)), p->frame->frame,
+                    samples->colour[slot], samples->light, slot);
 }
 
 /* The light of a row's four histories. */
@@ -154,22 +122,29 @@ MACULA_ALWAYS_INLINE void keep_lights(global const LightValue* past, const int* 
             light[k] = values[k];
 }
 
-/* Histories are kept row by row, samples and gaps come afterwards. Returns the lanes whose history
- * is sound: what is not a number stays out of the cache. */
-MACULA_ALWAYS_INLINE uint keep_row(const Packet* p, const Past* past, const Lanes* t,
-                                   const Spans* spans, uint row, uint known, const Out* out) {
+/* What a row that is kept may turn out to hold. */
+typedef struct Faults {
+    int16 colour; /* not 0 where it is not a number */
+    int4 rho;
+} Faults;
+
+/* Histories are kept row by row; samples and gaps come afterwards. */
+MACULA_ALWAYS_INLINE void keep_row(const Packet* p, const Past* past, const Lanes* t,
+                                   const Spans* spans, uint row, const Out* out, InfoLanes* infos,
+                                   Faults* faults) {
     const uint width = p->frame->width;
-    float16 colour = row_of_colours(past->colour, t, spans, width, row);
-    colour.s37bf = (float4)(1.0f);
+    const int16 opaque = (MACULA_LANES16 & 3) == 3;
+    const float16 between = row_of_colours(past->colour, t, spans, width, row);
+    const float16 colour = opaque ? (float16)(1.0f) : between;
     const int* nearest = t->nearest + 4u * row;
     const uint8 info = (uint8)(past->info[nearest[0]], past->info[nearest[1]],
                                past->info[nearest[2]], past->info[nearest[3]]);
+    vstore8(info, row, infos->words);
     const float4 rho = as_float4(info.even);
-    const int4 sound = (rho >= 0.0f) & (rho < 1e6f);
-    const int16 finite = fabs(colour) < 1e30f;
+    faults->colour |= !(fabs(colour) < 1e30f);
+    faults->rho |= !((rho >= 0.0f) & (rho < 1e6f));
     const uint pixel = (p->y0 + row) * width + p->x0;
     const uint lanes = p->inside >> 4u * row & 15u;
-    const uint wanted = known >> 4u * row & 15u;
     if (lanes == 15u) {
         vstore16(colour, 0, (global float*)(out->colour + pixel));
         vstore8(info, 0, (global uint*)(out->info + pixel));
@@ -186,12 +161,18 @@ MACULA_ALWAYS_INLINE uint keep_row(const Packet* p, const Past* past, const Lane
     }
     if (out->light)
         keep_lights(past->light, nearest, lanes, out->light + pixel);
-    uint kept = 15u;
-    const int4 whole = finite.s048c & finite.s159d & finite.s26ae & sound;
-    const int2 half_of = whole.lo & whole.hi;
-    if ((half_of.x & half_of.y) == 0)
-        kept = (whole.x & 1) | (whole.y & 2) | (whole.z & 4) | (whole.w & 8);
-    return (wanted & kept) << 4u * row;
+}
+
+/* The lanes of `known` whose kept history is sound: what is not a number stays out of the cache. */
+static inline uint sound_lanes(const Packet* p, uint known, const Out* out) {
+    uint sound = 0u;
+    for (uint lanes = known; lanes != 0u; lanes &= lanes - 1u) {
+        const uint pixel = pixel_of_lane(p, first_lane(lanes));
+        const float rho = as_float(out->info[pixel].x);
+        if (is_number(out->colour[pixel]) && rho >= 0.0f && rho < 1e6f)
+            sound |= lanes & -lanes;
+    }
+    return sound;
 }
 
 /* The gap is filled from the support image. */
@@ -205,23 +186,33 @@ static inline void fill(const Packet* p, global const float4* support, uint lane
         out->light[pixel] = UNLIT;
 }
 
-/* A sample where history was kept. */
-static inline void update(const Packet* p, const Samples* samples, uint lane, float inverse_depth,
-                          bool found, const Out* out) {
-    const uint pixel = pixel_of_lane(p, lane), slot = slot_of_lane(p, lane);
-    const uint now = p->frame->frame;
-    const float apart = fabs(fma(samples->depth[slot], inverse_depth, -1.0f));
-    if (!found || !(apart <= p->weier->merge_threshold)) {
-        take_sample(out, pixel, now, samples->colour[slot], samples->light, slot);
-        return;
+/* Samples where history was kept in some of the lanes, `kept`. */
+static inline void blend_samples(const Packet* p, const Samples* samples, uint kept,
+                                 const float* inverse_depth, const InfoLanes* info,
+                                 const Out* out) {
+    float depth[16];
+    vstore16((float16)(0.0f), 0, depth);
+    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot)
+        depth[first_lane(lanes)] = samples->depth[slot];
+    const float16 apart = fabs(fma(vload16(0, depth), vload16(0, inverse_depth), (float16)(-1.0f)));
+    const int16 blended =
+        lanes_of(kept & ~p->fresh) & (apart <= (float16)(p->weier->merge_threshold));
+    Blend blend;
+    weigh_samples(p->weier, p->frame->frame, blended, info, &blend);
+    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot) {
+        const uint lane = first_lane(lanes), pixel = pixel_of_lane(p, lane);
+        const float alpha = blend.alpha[lane];
+        const float4 fresh = samples->colour[slot], old = out->colour[pixel];
+        const float4 mixed = fma(fresh - old, (float4)(alpha), old);
+        out->colour[pixel] = alpha < 1.0f ? (float4)(mixed.xyz, 1.0f) : fresh;
+        out->info[pixel] = (uint2)(as_uint(blend.rho[lane]), blend.touch[lane]);
+        if (out->light) {
+            const LightValue lit = samples->light[slot], before = out->light[pixel];
+            out->light[pixel] = alpha < 1.0f && is_lit(before)
+                                    ? fma(lit - before, (LightValue)(alpha), before)
+                                    : lit;
+        }
     }
-    Cache cache;
-    cache.colour = out->colour[pixel];
-    cache.light = out->light ? out->light[pixel] : UNLIT;
-    const uint2 word = out->info[pixel];
-    cache.rho = as_float(word.x);
-    cache.touch = word.y;
-    blend_sample(out, pixel, now, p->weier, samples->colour[slot], samples->light, slot, &cache);
 }
 
 MACULA_ALWAYS_INLINE uint16 keys_of(global const uint* keys, uint pitch) {
@@ -290,7 +281,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
     const Samples samples = {sampled_colour, depth, sampled_light};
     const uint rest = reprojected_colour ? p.inside : p.inside & ~p.fresh;
     if (rest == 0u) {
-        take_fresh(&p, &samples, &out);
+        take_samples(&p, &samples, &out);
         return;
     }
     const Past past = {past_colour, past_info, past_light};
@@ -300,6 +291,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
     const uint known = *history_kept != 0u ? rest & bits_of_lanes16(unmarked) : 0u;
     uint kept = 0u;
     float inverse_depth[16];
+    InfoLanes infos;
     if (known != 0u) {
         const float16 x = (float)p.x0 + (convert_float16(MACULA_LANES16 & 3) + 0.5f);
         const float16 y = (float)p.y0 + (convert_float16(MACULA_LANES16 >> 2) + 0.5f);
@@ -320,9 +312,14 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
         vstore16(texels.to_x, 0, t.to_x);
         vstore16(texels.to_y, 0, t.to_y);
         vstore16(history.inverse_depth, 0, inverse_depth);
+        vstore16((uint16)(0u), 0, infos.words);
+        vstore16((uint16)(0u), 1, infos.words);
+        Faults faults = {(int16)(0), (int4)(0)};
         for (uint row = 0u; row < 4u; ++row)
             if ((known >> 4u * row & 15u) != 0u)
-                kept |= keep_row(&p, &past, &t, &spans, row, known, &out);
+                keep_row(&p, &past, &t, &spans, row, &out, &infos, &faults);
+        faults.colour.lo.lo |= faults.rho;
+        kept = any_lane16(faults.colour) ? sound_lanes(&p, known, &out) : known;
         uint key_of_lane[16];
         vstore16(key, 0, key_of_lane);
         const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
@@ -343,11 +340,10 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
             const uint lane = first_lane(lanes), pixel = pixel_of_lane(&p, lane);
             reprojected_colour[pixel] = (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
         }
-    take_fresh(&p, &samples, &out);
-    for (uint lanes = p.sampled & ~p.fresh; lanes != 0u; lanes &= lanes - 1u) {
-        const uint lane = first_lane(lanes);
-        update(&p, &samples, lane, inverse_depth[lane], (kept >> lane & 1u) != 0u, &out);
-    }
+    if ((kept & p.sampled & ~p.fresh) != 0u)
+        blend_samples(&p, &samples, kept, inverse_depth, &infos, &out);
+    else
+        take_samples(&p, &samples, &out);
     for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
         fill(&p, support_image, first_lane(lanes), &out);
 }

@@ -3,36 +3,11 @@
  * ones keep that order, so that sixteen neighbours in the list are still close together. */
 #include "lib/acuity.h"
 #include "lib/camera_ray.h"
+#include "lib/random_vector.h"
 #include "lib/simd.h"
 #include "shared/ray.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
-
-/* lib/math.h's m_inverse_sqrt, lane by lane. */
-static inline float16 inverse_sqrt16(float16 x) {
-    const float16 half_x = 0.5f * x;
-    float16 y = as_float16((int16)(0x5f375a86) - (as_int16(x) >> 1));
-    y = fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
-    y = fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
-    return fma(y, fma(-(half_x * y), y, (float16)(0.5f)), y);
-}
-
-static inline uint16 random_mix16(uint16 x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
-}
-
-/* random_unit(random_key(pixel, ..), 0, dimension) of lib/random.h, lane by lane. */
-static inline float16 random_unit16(uint16 pixel, uint frame, uint seed, uint dimension) {
-    const uint common = random_mix(frame + random_mix(seed ^ 0x9e3779b9u));
-    const uint16 key = random_mix16(pixel + common);
-    const uint16 bits = random_mix16(key ^ random_mix(dimension * 0x85ebca77u));
-    return convert_float16(bits >> 8) * 0x1p-24f;
-}
 
 /* Bit n is set where lane n is not 0. */
 static inline uint bits_of(int16 mask) {
@@ -75,10 +50,10 @@ static inline Choice choose_by_gaze(global const FrameParams* frame,
         fma(convert_float16(y) + 0.5f, (float16)(-step_y), (float16)(frame->camera.tan_up));
     const float16 length_squared = fma(sx, sx, fma(sy, sy, (float16)(1.0f)));
     const float16 along = fma((float16)(right), sx, fma((float16)(up), sy, (float16)(forward)));
-    const float16 cosine = along * inverse_sqrt16(length_squared);
+    const float16 cosine = along * m_inverse_sqrt(length_squared);
     const float r0 = weier->r0 * frame->gaze_widening, r1 = weier->r1 * frame->gaze_widening;
-    const float16 xi =
-        random_unit16(y * width + x, frame->frame, frame->seed, MACULA_DIMENSION_FOVEA);
+    const float16 xi = random_unit(random_key(y * width + x, frame->frame, frame->seed), 0u,
+                                   MACULA_DIMENSION_FOVEA);
 
     Choice choice;
     choice.fovea = cosine >= cosine_of_eccentricity(r0);

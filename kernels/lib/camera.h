@@ -2,8 +2,8 @@
 #ifndef MACULA_LIB_CAMERA_H
 #define MACULA_LIB_CAMERA_H
 
+#include "lib/lanes.h"
 #include "lib/random.h"
-#include "lib/vector.h"
 #include "shared/camera.h"
 
 MACULA_SHARED_BEGIN
@@ -54,10 +54,6 @@ MACULA_ALWAYS_INLINE void subpixel_offset(uint key, uint sample, uint grid, floa
     }
 }
 
-MACULA_ALWAYS_INLINE float3 vector_at(MACULA_GLOBAL const float* v) {
-    return make3(v[0], v[1], v[2]);
-}
-
 /* Direction through the image point (x, y) in pixels; its component along `forward` is 1. */
 MACULA_ALWAYS_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera, uint width,
                                              uint height, float x, float y) {
@@ -69,19 +65,19 @@ MACULA_ALWAYS_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera,
                       scale_add3(vector_at(camera->up), sy, vector_at(camera->forward)));
 }
 
-/* The image point in pixels to which the vector from the camera's origin projects; false when it
- * does not lie in front of the camera. */
-MACULA_ALWAYS_INLINE bool camera_project(MACULA_GLOBAL const Camera* camera, uint width,
-                                         uint height, float3 view, float* x, float* y) {
-    const float z = dot3(view, vector_at(camera->forward));
-    if (!(z > 1e-20f))
-        return false;
-    const float inverse = m_divide(1.0f, z);
-    const float sx = dot3(view, vector_at(camera->right)) * inverse;
-    const float sy = dot3(view, vector_at(camera->up)) * inverse;
-    *x = m_divide(sx + camera->tan_left, camera->tan_right + camera->tan_left) * (float)width;
-    *y = m_divide(camera->tan_up - sy, camera->tan_up + camera->tan_down) * (float)height;
-    return true;
+/* The image point in pixels to which the vector from the camera's origin projects; false, and any
+ * point, where it does not lie in front of the camera. */
+MACULA_ALWAYS_INLINE Mask camera_project(MACULA_GLOBAL const Camera* camera, uint width,
+                                         uint height, Real3 view, Real* x, Real* y) {
+    const Real z = dot3(view, splat_vector(vector_at(camera->forward)));
+    const Mask ahead = z > splat(1e-20f);
+    const Real inverse = m_divide(splat(1.0f), ahead ? z : splat(1.0f));
+    const Real sx = dot3(view, splat_vector(vector_at(camera->right))) * inverse;
+    const Real sy = dot3(view, splat_vector(vector_at(camera->up))) * inverse;
+    *x =
+        m_divide(sx + camera->tan_left, splat(camera->tan_right + camera->tan_left)) * (float)width;
+    *y = m_divide(camera->tan_up - sy, splat(camera->tan_up + camera->tan_down)) * (float)height;
+    return ahead;
 }
 
 MACULA_SHARED_END

@@ -178,7 +178,7 @@ static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
     p->t_max = q->t_max;
     const float16 margin = MACULA_RAY_MARGIN * reach16(q->ox, q->oy, q->oz);
     for (uint axis = 0u; axis < 3u; ++axis) {
-        const float16 r = m_divide16((float16)(1.0f), d[axis]);
+        const float16 r = m_divide((float16)(1.0f), d[axis]);
         p->r[axis] = r;
         p->n[axis] = fma(fabs(r), -margin, -(p->o[axis] * r));
     }

@@ -97,7 +97,8 @@ static inline int16 keep_solid(const TraceScene* scene, uint slot, int16 hit, fl
 static inline bool finish_triangle(const TraceScene* scene, const PacketInstance* instance,
                                    Packet* p, PacketHit* best, global const Triangle* tri,
                                    const PacketEdges* e, int16 hit) {
-    const float16 inverse = m_divide16(1.0f, hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
+    const float16 inverse =
+        m_divide((float16)(1.0f), hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
     const float16 scaled_t =
         fma(e->wa, p->sz * e->az, fma(e->wb, p->sz * e->bz, e->wc * (p->sz * e->cz)));
     float16 t = -scaled_t * inverse;

@@ -7,17 +7,17 @@
 #ifndef MACULA_LIB_PHONG_H
 #define MACULA_LIB_PHONG_H
 
-#include "lib/vector.h"
+#include "lib/lanes.h"
 
 MACULA_SHARED_BEGIN
 
 /* max(0, r . v)^shininess with r the direction to the light mirrored at n. All unit vectors. */
-MACULA_ALWAYS_INLINE float phong_lobe(float3 n, float3 to_light, float3 to_viewer,
-                                      float shininess) {
-    const float3 mirrored = scale_add3(n, 2.0f * dot3(n, to_light), -to_light);
-    const float cosine = m_min(dot3(mirrored, to_viewer), 1.0f);
+MACULA_ALWAYS_INLINE Real phong_lobe(Real3 n, Real3 to_light, Real3 to_viewer, Real shininess) {
+    const Real3 mirrored = scale_add3(n, 2.0f * dot3(n, to_light), neg3(to_light));
+    const Real cosine = m_min(dot3(mirrored, to_viewer), splat(1.0f));
     /* Below this the power is far under one part in 2^24 of the peak for any shininess >= 1. */
-    return cosine > 0x1p-40f ? m_pow(cosine, shininess) : 0.0f;
+    const Mask seen = cosine > splat(0x1p-40f);
+    return seen ? m_pow(cosine, shininess) : splat(0.0f);
 }
 
 MACULA_SHARED_END

@@ -33,13 +33,6 @@ typedef struct TraceRay {
     uint octant;        /* bit a: direction component a is negative */
 } TraceRay;
 
-MACULA_INLINE float m_min(float a, float b) {
-    return a < b ? a : b;
-}
-MACULA_INLINE float m_max(float a, float b) {
-    return a > b ? a : b;
-}
-
 MACULA_INLINE float pick_axis(uint axis, float x, float y, float z) {
     return axis == 0u ? x : (axis == 1u ? y : z);
 }

@@ -64,7 +64,7 @@ MACULA_ALWAYS_INLINE void find_in_cell(const CellTables* mesh, global const Weie
     const float16 ratio =
         over_cell(cell, MACULA_PER_PIXEL_RATIO, cell[MACULA_CELL_RATIO * 16u], above, to_x, to_y);
     const float16 inverse =
-        m_divide16((float16)(1.0f), fabs(ratio) > 1e-12f ? ratio : (float16)(1e-12f));
+        m_divide((float16)(1.0f), fabs(ratio) > 1e-12f ? ratio : (float16)(1e-12f));
     const float16 part_x = over_cell(cell, MACULA_PER_PIXEL_FROM_X, 0.0f, above, to_x, to_y);
     const float16 part_y = over_cell(cell, MACULA_PER_PIXEL_FROM_Y, 0.0f, above, to_x, to_y);
     const float16 depth =

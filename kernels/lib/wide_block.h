@@ -88,7 +88,7 @@ static inline bool finish_block8(const TraceScene* scene, BlockRay* s,
                                  int8 hit) {
     const TraceRay* r = &s->query.ray;
     const float8 one = 1.0f, shear = r->sz;
-    const float8 inverse = m_divide8(one, hit ? (e->wa + e->wb) + e->wc : one);
+    const float8 inverse = m_divide(one, hit ? (e->wa + e->wb) + e->wc : one);
     const float8 scaled_t =
         fma(e->wa, shear * e->az, fma(e->wb, shear * e->bz, e->wc * (shear * e->cz)));
     float8 t = scaled_t * inverse;

@@ -98,7 +98,7 @@ static inline BlockHits hit_block(const Stream* s, const StreamClass* c, uint k,
     BlockHits h;
     /* An edge function that is not 0 makes the determinant not 0: all have one sign. */
     h.hit = (least < (float8)(0.0f)) ^ (greatest > (float8)(0.0f));
-    const float8 inverse = m_divide8((float8)(1.0f), h.hit ? (wa + wb) + wc : (float8)(1.0f));
+    const float8 inverse = m_divide((float8)(1.0f), h.hit ? (wa + wb) + wc : (float8)(1.0f));
     h.t = fma(wa, sz * az, fma(wb, sz * bz, wc * (sz * cz))) * inverse;
     h.u = wb * inverse;
     h.v = wc * inverse;

@@ -24,7 +24,7 @@ static inline void prepare_rays16(const QueuedRays* q, uint from, Stream* s, con
     const float16 margin = MACULA_RAY_MARGIN * reach16(o[0], o[1], o[2]);
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float16 r =
-            m_divide16((float16)(1.0f), bounded_direction16(vload16(0, q->d[axis] + from)));
+            m_divide((float16)(1.0f), bounded_direction16(vload16(0, q->d[axis] + from)));
         vstore16(r, 0, s->r[axis] + lane);
         vstore16(fma(fabs(r), -margin, -(o[axis] * r)), 0, s->n[axis] + lane);
         vstore16(o[axis], 0, s->o[axis] + lane);

@@ -45,10 +45,10 @@ MACULA_ALWAYS_INLINE float16 off_plane(const Corners* corner, const Corners* oth
     const int16 facing = corner->along <= -1e-6f;
     const float16 along = facing ? corner->along : (float16)(-1.0f);
     const float16 expected =
-        corner->inverse_depth * m_divide16(dot16(&corner->normal, &other->ray), along);
+        corner->inverse_depth * m_divide(dot16(&corner->normal, &other->ray), along);
     const float16 larger = m_max16(expected, other->inverse_depth);
     const float16 part =
-        m_divide16(fabs(expected - other->inverse_depth), larger > 0.0f ? larger : (float16)(1.0f));
+        m_divide(fabs(expected - other->inverse_depth), larger > 0.0f ? larger : (float16)(1.0f));
     const float16 apart = other->along > -1e-6f ? (float16)(0.0f) : (float16)(1.0f);
     return facing ? part : apart;
 }
@@ -60,13 +60,13 @@ MACULA_ALWAYS_INLINE float16 jump_between(const Corners* a, const Corners* b) {
 
 /* Where edge_t of section 3.3 is too small. */
 MACULA_ALWAYS_INLINE int16 is_grazing(const Corners* c, float threshold) {
-    const float16 edge = -c->along * m_inverse_sqrt16(dot16(&c->ray, &c->ray));
+    const float16 edge = -c->along * m_inverse_sqrt(dot16(&c->ray, &c->ray));
     return (c->along < -1e-6f) & (edge < threshold);
 }
 
 MACULA_ALWAYS_INLINE float16 length_ratio(const Quad16* a, const Quad16* b, float16 before) {
     const float16 x = b->x - a->x, y = b->y - a->y;
-    return m_divide16(m_sqrt16(fma(x, x, y * y)), before);
+    return m_divide(m_sqrt(fma(x, x, y * y)), before);
 }
 
 MACULA_ALWAYS_INLINE int16 flag_where(int16 mask, uint flag) {
@@ -146,7 +146,7 @@ MACULA_ALWAYS_INLINE Weights weights_of(const Quad16* a, const Quad16* b, const 
     Weights w;
     w.area = fma(side_x, diagonal_y, -(side_y * diagonal_x));
     const int16 flat = !(fabs(w.area) > 1e-12f);
-    const float16 inverse = m_divide16((float16)(1.0f), flat ? (float16)(1.0f) : w.area);
+    const float16 inverse = m_divide((float16)(1.0f), flat ? (float16)(1.0f) : w.area);
     const float16 share = flat ? (float16)(0.0f) : inverse;
     w.b_x = diagonal_y * share;
     w.b_y = -diagonal_x * share;

@@ -57,7 +57,7 @@ MACULA_ALWAYS_INLINE Quad16 load_quads(global const float4* values, uint first, 
 /* Inverse depths of support samples, 0 where one is not a depth. */
 MACULA_ALWAYS_INLINE float16 inverse_depths(float16 depth) {
     const int16 valid = (depth > 0.0f) & (depth <= MACULA_BACKGROUND_DEPTH);
-    const float16 inverse = m_divide16((float16)(1.0f), valid ? depth : (float16)(1.0f));
+    const float16 inverse = m_divide((float16)(1.0f), valid ? depth : (float16)(1.0f));
     return valid ? inverse : (float16)(0.0f);
 }
 
@@ -81,7 +81,7 @@ MACULA_ALWAYS_INLINE Triple16 past_rays(global const FrameParams* frame, float16
 MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, const Triple16* ray,
                                              float16 inverse) {
     global const Camera *past = &frame->previous_camera, *now = &frame->camera;
-    const float16 depth = m_divide16((float16)(1.0f), inverse > 0.0f ? inverse : (float16)(1.0f));
+    const float16 depth = m_divide((float16)(1.0f), inverse > 0.0f ? inverse : (float16)(1.0f));
     const float3 moved = vector_at(past->origin) - vector_at(now->origin);
     Triple16 view;
     view.x = fma(ray->x, depth, (float16)(moved.x));
@@ -90,18 +90,18 @@ MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, co
     const float16 z = against16(&view, vector_at(now->forward));
     const int16 seen = (inverse > 0.0f) & (z > 1e-20f);
     const float16 kept = seen ? z : (float16)(1.0f);
-    const float16 share = m_divide16((float16)(1.0f), kept);
+    const float16 share = m_divide((float16)(1.0f), kept);
     const float16 sx = against16(&view, vector_at(now->right)) * share;
     const float16 sy = against16(&view, vector_at(now->up)) * share;
-    const float16 x = m_divide16(sx + now->tan_left, (float16)(now->tan_right + now->tan_left)) *
+    const float16 x = m_divide(sx + now->tan_left, (float16)(now->tan_right + now->tan_left)) *
                       (float)frame->width;
     const float16 y =
-        m_divide16(now->tan_up - sy, (float16)(now->tan_up + now->tan_down)) * (float)frame->height;
+        m_divide(now->tan_up - sy, (float16)(now->tan_up + now->tan_down)) * (float)frame->height;
     Quad16 v;
     v.x = seen ? m_min16(m_max16(x, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
     v.y = seen ? m_min16(m_max16(y, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
     v.z = seen ? share : (float16)(-1.0f);
-    v.w = seen ? m_divide16(depth, kept) : (float16)(0.0f);
+    v.w = seen ? m_divide(depth, kept) : (float16)(0.0f);
     return v;
 }
 

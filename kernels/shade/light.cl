@@ -6,57 +6,66 @@
 #include "shared/bvh.h"
 #include "shared/ray.h"
 
-/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item a slot of the
- * launch. */
+/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item for
+ * MACULA_LANES slots of the launch. */
 kernel void flag_lit_surfaces(global const uint* restrict ray_count,
                               global const uint* restrict triangle,
                               global const float4* restrict position,
                               global const float4* restrict geometric_normal,
                               global const Light* restrict lights, uint light,
                               global uint* restrict flags) {
-    const uint slot = get_global_id(0);
     if (beyond_list(*ray_count))
         return;
-    const bool hit = slot < *ray_count && triangle[slot] != MACULA_NO_TRIANGLE;
-    flags[slot] =
-        hit && light_may_reach(lights + light, position[slot].xyz, geometric_normal[slot].xyz);
+    const uint first = first_of_item();
+    const Mask hit =
+        (lanes_from(first) < *ray_count) & (load_uints(triangle, first) != MACULA_NO_TRIANGLE);
+    const Mask lit = hit & light_may_reach(lights + light, load4(position, first).xyz,
+                                           load4(geometric_normal, first).xyz);
+    store_uints(flags, first, lit ? splat_uint(1u) : splat_uint(0u));
 }
 
-/* One work-item an entry of the batch; it makes the rays of all of the light's samples. */
+/* One work-item for MACULA_LANES entries of the batch; it makes the rays of all of the light's
+ * samples. */
 kernel void generate_shadow_rays(
     global const FrameParams* restrict frame, uint sample, global const Light* restrict lights,
     uint light, global const uint* restrict queue, global const uint* restrict queue_count,
     uint first, global const uint* restrict pixels, global const float4* restrict position,
     global const float4* restrict geometric_normal, global RayBlock* restrict rays,
     global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
-    const uint entry = get_global_id(0), count = batch_count(*queue_count, first);
+    const uint count = batch_count(*queue_count, first);
     const uint samples = lights[light].samples;
     const Strata strata = make_strata(lights[light].columns, samples);
-    if (entry == 0u) {
-        const uint capacity = (uint)get_global_size(0);
+    if (get_global_id(0) == 0u) {
+        const uint capacity = (uint)get_global_size(0) * MACULA_LANES;
         *ray_count = batch_rays(count, samples, capacity);
         ray_totals[ray_class] += (count < capacity ? count : capacity) * samples;
     }
-    if (entry >= padded_count(count))
+    if (first_of_item() >= padded_count(count))
         return;
-    const bool used = entry < count;
-    const uint slot = used ? queue[first + entry] : 0u;
-    const float4 surface = used ? position[slot] : (float4)(0.0f);
-    const float3 normal = used ? geometric_normal[slot].xyz : (float3)(0.0f);
-    const float3 origin = scale_add3(normal, surface.w, surface.xyz);
-    const uint key = used ? random_key(pixels[slot], frame->frame, frame->seed) : 0u;
+    const Entries e = load_entries(queue, first, count);
+    const Lane4 surface = gather4(position, e.slot);
+    const Real3 normal = gather4(geometric_normal, e.slot).xyz;
+    const Real3 origin = scale_add3(normal, surface.w, surface.xyz);
+    const Uint key = random_key(MACULA_GATHER(uint, pixels, e.slot, ), frame->frame, frame->seed);
     for (uint index = 0u; index < samples; ++index) {
         LightSample s;
         sample_light(lights + light, &strata, surface.xyz, key, sample,
                      MACULA_DIMENSION_LIGHTS + light, index, &s);
-        const bool above = used && s.weight > 0.0f && dot3(s.direction, normal) > 0.0f;
-        store_ray(rays, queued_ray(entry, index, samples), origin, s.direction,
-                  above ? s.t_max : -1.0f);
+        const Mask above =
+            e.used & (s.weight > splat(0.0f)) & (dot3(s.direction, normal) > splat(0.0f));
+        store_rays(rays, queued_ray(e.first, index, samples), origin, s.direction,
+                   above ? s.t_max : splat(-1.0f));
     }
 }
 
+/* What one light gives to a point: the sums over its samples. */
+typedef struct Received {
+    Real diffuse; /* irradiance */
+    Real glossy;  /* irradiance facing the light times Phong's lobe */
+} Received;
+
 /* Adds the light's unoccluded samples to the irradiance and, where specular materials exist, to
- * the highlight: irradiance facing the light times Phong's lobe. */
+ * the highlight. */
 kernel void add_light(global const FrameParams* restrict frame, uint sample,
                       global const Light* restrict lights, uint light,
                       global const uint* restrict queue, global const uint* restrict queue_count,
@@ -66,35 +75,44 @@ kernel void add_light(global const FrameParams* restrict frame, uint sample,
                       global const float4* restrict shading_normal,
                       global const float4* restrict specular, global const uint* restrict occluded,
                       global float4* restrict irradiance, global float4* restrict highlight) {
-    const uint entry = get_global_id(0);
-    if (entry >= batch_count(*queue_count, first))
+    const uint count = batch_count(*queue_count, first);
+    if (first_of_item() >= count)
         return;
-    const uint slot = queue[first + entry];
-    const float3 from = position[slot].xyz;
-    const float3 above = geometric_normal[slot].xyz, normal = shading_normal[slot].xyz;
-    const float3 to_viewer = unit3(vector_at(frame->camera.origin) - from, normal);
-    const uint key = random_key(pixels[slot], frame->frame, frame->seed);
+    const Entries e = load_entries(queue, first, count);
+    const Real3 from = gather4(position, e.slot).xyz;
+    const Real3 above = gather4(geometric_normal, e.slot).xyz;
+    const Real3 normal = gather4(shading_normal, e.slot).xyz;
+    const Real3 eye = splat_vector(vector_at(frame->camera.origin));
+    const Real3 to_viewer = unit3(sub3(eye, from), normal);
+    const Real shininess = highlight ? gather4(specular, e.slot).w : splat(1.0f);
+    const Uint key = random_key(MACULA_GATHER(uint, pixels, e.slot, ), frame->frame, frame->seed);
     const uint samples = lights[light].samples;
     const Strata strata = make_strata(lights[light].columns, samples);
-    float diffuse = 0.0f, glossy = 0.0f;
+    const Real zero = splat(0.0f);
+    Received sum = {zero, zero};
     for (uint index = 0u; index < samples; ++index) {
-        if (occluded[queued_ray(entry, index, samples)] != 0u)
+        const Mask open =
+            e.used & (load_uints(occluded, queued_ray(e.first, index, samples)) == 0u);
+        if (!any_lane(open))
             continue;
         LightSample s;
         sample_light(lights + light, &strata, from, key, sample, MACULA_DIMENSION_LIGHTS + light,
                      index, &s);
-        const float cosine = dot3(normal, s.unit_direction);
-        if (!(s.weight > 0.0f && s.t_max > 0.0f && cosine > 0.0f &&
-              dot3(above, s.direction) > 0.0f))
-            continue;
-        diffuse = fma(s.weight, cosine, diffuse);
-        if (highlight)
-            glossy = fma(s.weight,
-                         phong_lobe(normal, s.unit_direction, to_viewer, specular[slot].w), glossy);
+        const Real cosine = dot3(normal, s.unit_direction);
+        const Mask lit = open & (s.weight > zero) & (s.t_max > zero) & (cosine > zero) &
+                         (dot3(above, s.direction) > zero);
+        sum.diffuse = lit ? fma(s.weight, cosine, sum.diffuse) : sum.diffuse;
+        if (highlight) {
+            const Real lobe = phong_lobe(normal, s.unit_direction, to_viewer, shininess);
+            sum.glossy = lit ? fma(s.weight, lobe, sum.glossy) : sum.glossy;
+        }
     }
-    const float scale = m_divide(1.0f, (float)samples);
-    const float3 colour = vector_at(lights[light].colour);
-    irradiance[slot] = (float4)(scale_add3(colour, diffuse * scale, irradiance[slot].xyz), 0.0f);
-    if (highlight)
-        highlight[slot] = (float4)(scale_add3(colour, glossy * scale, highlight[slot].xyz), 0.0f);
+    const Real scale = splat(m_divide(1.0f, (float)samples));
+    const Real3 colour = splat_vector(vector_at(lights[light].colour));
+    const Real3 before = gather4(irradiance, e.slot).xyz;
+    scatter4(irradiance, e.slot, e.used, scale_add3(colour, sum.diffuse * scale, before), zero);
+    if (highlight) {
+        const Real3 shine = gather4(highlight, e.slot).xyz;
+        scatter4(highlight, e.slot, e.used, scale_add3(colour, sum.glossy * scale, shine), zero);
+    }
 }

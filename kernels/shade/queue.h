@@ -5,13 +5,13 @@
 #ifndef MACULA_SHADE_QUEUE_H
 #define MACULA_SHADE_QUEUE_H
 
-#include "lib/vector.h"
+#include "lib/lane_memory.h"
 #include "shared/ray.h"
 
 /* True for all work-items of a group that lies beyond the list. CPUs turn a test of each slot into
  * masked loads, which are slow where the memory behind the list was never touched. */
 MACULA_ALWAYS_INLINE bool beyond_list(uint ray_count) {
-    return (uint)get_group_id(0) * (uint)get_local_size(0) >= ray_count;
+    return (uint)get_group_id(0) * (uint)get_local_size(0) * MACULA_LANES >= ray_count;
 }
 
 /* Entries left at `first`. */
@@ -35,19 +35,37 @@ MACULA_ALWAYS_INLINE uint queued_ray(uint entry, uint index, uint samples) {
     return block * MACULA_RAY_BLOCK + entry % MACULA_RAY_BLOCK;
 }
 
-/* t_max < 0 makes the ray inactive. */
-MACULA_ALWAYS_INLINE void store_ray(global RayBlock* rays, uint ray, float3 origin,
-                                    float3 direction, float t_max) {
+/* t_max < 0 makes a ray inactive. `ray`: of the first lane. */
+MACULA_ALWAYS_INLINE void store_rays(global RayBlock* rays, uint ray, Real3 origin, Real3 direction,
+                                     Real t_max) {
     global RayBlock* block = rays + ray / MACULA_RAY_BLOCK;
     const uint lane = ray % MACULA_RAY_BLOCK;
-    block->origin_x[lane] = origin.x;
-    block->origin_y[lane] = origin.y;
-    block->origin_z[lane] = origin.z;
-    block->t_min[lane] = 0.0f;
-    block->direction_x[lane] = direction.x;
-    block->direction_y[lane] = direction.y;
-    block->direction_z[lane] = direction.z;
-    block->t_max[lane] = t_max;
+    store_reals(block->origin_x, lane, origin.x);
+    store_reals(block->origin_y, lane, origin.y);
+    store_reals(block->origin_z, lane, origin.z);
+    store_reals(block->t_min, lane, splat(0.0f));
+    store_reals(block->direction_x, lane, direction.x);
+    store_reals(block->direction_y, lane, direction.y);
+    store_reals(block->direction_z, lane, direction.z);
+    store_reals(block->t_max, lane, t_max);
+}
+
+/* The entries of a work-item of a launch that covers a batch, and the surfaces that they name. */
+typedef struct Entries {
+    uint first; /* in the batch */
+    Mask used;  /* the last block of the batch may be filled up */
+    Uint slot;  /* 0 where it is not used */
+} Entries;
+
+/* `count`: batch_count(). */
+MACULA_ALWAYS_INLINE Entries load_entries(global const uint* queue, uint first_of_batch,
+                                          uint count) {
+    Entries e;
+    e.first = first_of_item();
+    e.used = lanes_from(e.first) < count;
+    e.slot = load_uints(queue, first_of_batch + e.first);
+    e.slot = e.used ? e.slot : splat_uint(0u);
+    return e;
 }
 
 #endif

@@ -1,24 +1,8 @@
 /* Resolves hits into the G-buffer. Outputs that nobody reads are null. */
-#include "lib/surface.h"
+#include "lib/camera.h"
+#include "lib/texture.h"
+#include "shade/corners.h"
 #include "shared/ray.h"
-
-MACULA_ALWAYS_INLINE float2 motion_of(global const FrameParams* frame, float3 view,
-                                      float3 previous_view) {
-    float x, y, previous_x, previous_y;
-    const bool seen = camera_project(&frame->camera, frame->width, frame->height, view, &x, &y) &&
-                      camera_project(&frame->previous_camera, frame->width, frame->height,
-                                     previous_view, &previous_x, &previous_y);
-    return seen ? (float2)(clamped(previous_x - x, -MACULA_NO_MOTION, MACULA_NO_MOTION),
-                           clamped(previous_y - y, -MACULA_NO_MOTION, MACULA_NO_MOTION))
-                : (float2)(MACULA_NO_MOTION, MACULA_NO_MOTION);
-}
-
-MACULA_ALWAYS_INLINE float3 textured(const TextureTables* tables, global const float* colour,
-                                     uint texture, const SurfacePoint* s, float lod) {
-    const float3 base = vector_at(colour);
-    return texture == MACULA_NO_TEXTURE ? base
-                                        : base * sample_texture(tables, texture, s->u, s->v, lod);
-}
 
 /* The G-buffer, one entry a ray slot. A ray that missed has triangle MACULA_NO_TRIANGLE, zero
  * normals and albedo, and the background's radiance as its emission. */
@@ -35,67 +19,143 @@ typedef struct SurfaceOutputs {
     global float2* motion; /* pixels: position in the last frame minus position in this one */
 } SurfaceOutputs;
 
-MACULA_ALWAYS_INLINE void write_background(const SurfaceOutputs* out, uint slot,
-                                           global const FrameParams* frame, float3 direction) {
-    const float4 zero = (float4)(0.0f);
+/* The hits of a work-item's lanes, and what is behind them. */
+typedef struct Hits {
+    uint first; /* slot */
+    Mask hit;
+    Uint triangle; /* 0 where nothing is hit */
+    Real t, u, v;
+    Real3 direction;
+} Hits;
+
+static inline Hits load_hits(global const RayBlock* rays, global const HitBlock* hits, uint first,
+                             uint ray_count) {
+    global const RayBlock* ray = rays + first / MACULA_RAY_BLOCK;
+    global const HitBlock* found = hits + first / MACULA_RAY_BLOCK;
+    const uint lane = first % MACULA_RAY_BLOCK;
+    const Uint triangle = load_uints(found->triangle, lane);
+    Hits h;
+    h.first = first;
+    h.hit = (lanes_from(first) < ray_count) & (triangle != MACULA_NO_TRIANGLE);
+    h.triangle = h.hit ? triangle : splat_uint(0u);
+    h.t = h.hit ? load_reals(found->t, lane) : splat(MACULA_BACKGROUND_DEPTH);
+    h.u = h.hit ? load_reals(found->u, lane) : splat(0.0f);
+    h.v = h.hit ? load_reals(found->v, lane) : splat(0.0f);
+    h.direction = make3(load_reals(ray->direction_x, lane), load_reals(ray->direction_y, lane),
+                        load_reals(ray->direction_z, lane));
+    return h;
+}
+
+/* `view`, `previous_view`: from the cameras' origins. */
+static inline void write_motion(global float2* motion, uint first, global const FrameParams* frame,
+                                Real3 view, Real3 previous_view) {
+    Real x, y, previous_x, previous_y;
+    const Mask seen = camera_project(&frame->camera, frame->width, frame->height, view, &x, &y) &
+                      camera_project(&frame->previous_camera, frame->width, frame->height,
+                                     previous_view, &previous_x, &previous_y);
+    const Real none = splat(MACULA_NO_MOTION), least = splat(-MACULA_NO_MOTION);
+    store2(motion, first, seen ? clamped(previous_x - x, least, none) : none,
+           seen ? clamped(previous_y - y, least, none) : none);
+}
+
+static inline void write_background(const SurfaceOutputs* out, const Hits* h,
+                                    global const FrameParams* frame) {
+    const Real zero = splat(0.0f);
+    const Real3 nothing = splat_vector(splat3(0.0f));
     if (out->depth)
-        out->depth[slot] = MACULA_BACKGROUND_DEPTH;
+        store_reals(out->depth, h->first, h->t);
     if (out->position)
-        out->position[slot] = zero;
+        store4(out->position, h->first, nothing, zero);
     if (out->geometric_normal)
-        out->geometric_normal[slot] = zero;
+        store4(out->geometric_normal, h->first, nothing, zero);
     if (out->shading_normal)
-        out->shading_normal[slot] = zero;
+        store4(out->shading_normal, h->first, nothing, zero);
     if (out->albedo)
-        out->albedo[slot] = zero;
+        store4(out->albedo, h->first, nothing, zero);
     if (out->specular)
-        out->specular[slot] = (float4)(0.0f, 0.0f, 0.0f, 1.0f);
+        store4(out->specular, h->first, nothing, splat(1.0f));
     if (out->emission)
-        out->emission[slot] = (float4)(vector_at(frame->background), 0.0f);
+        store4(out->emission, h->first, splat_vector(vector_at(frame->background)), zero);
     if (out->triangle)
-        out->triangle[slot] = MACULA_NO_TRIANGLE;
+        store_uints(out->triangle, h->first, splat_uint(MACULA_NO_TRIANGLE));
     if (out->material)
-        out->material[slot] = MACULA_NO_TRIANGLE;
+        store_uints(out->material, h->first, splat_uint(MACULA_NO_TRIANGLE));
     if (out->motion)
-        out->motion[slot] = motion_of(frame, direction, direction);
+        write_motion(out->motion, h->first, frame, h->direction, h->direction);
 }
 
-MACULA_ALWAYS_INLINE void write_surface(const SurfaceOutputs* out, uint slot,
-                                        global const FrameParams* frame, const SurfacePoint* s,
-                                        const TextureTables* tables,
-                                        global const SurfaceMaterial* material, float lod) {
+/* A colour times its texture. */
+static inline Real3 textured(const TextureTables* tables, Mask hit, Real3 base, Uint texture,
+                             const SurfacePoint* s, Real lod) {
+    const Mask used = hit & (texture != MACULA_NO_TEXTURE);
+    if (!any_lane(used))
+        return base;
+    const Uint index = used ? texture : splat_uint(0u);
+    return select3(used, mul3(base, sample_texture(tables, index, s->u, s->v, lod)), base);
+}
+
+static inline Real3 bumped_normal(const TextureTables* tables, Mask hit, Uint texture,
+                                  const SurfacePoint* s, Real lod) {
+    const Mask used = hit & (texture != MACULA_NO_TEXTURE);
+    if (!any_lane(used))
+        return s->shading_normal;
+    const Uint index = used ? texture : splat_uint(0u);
+    const Real3 texel = sample_texture(tables, index, s->u, s->v, lod);
+    return select3(used, mapped_normal(s, texel), s->shading_normal);
+}
+
+/* Geometry. Lanes without a hit get the background's values. */
+static inline void write_geometry(const SurfaceOutputs* out, const Hits* h, const SurfacePoint* s,
+                                  Uint material) {
+    const Real zero = splat(0.0f);
+    const Real3 nothing = splat_vector(splat3(0.0f));
+    const Uint none = splat_uint(MACULA_NO_TRIANGLE);
+    if (out->depth)
+        store_reals(out->depth, h->first, h->t);
     if (out->position)
-        out->position[slot] = (float4)(s->position, s->offset);
+        store4(out->position, h->first, select3(h->hit, s->position, nothing),
+               h->hit ? s->offset : zero);
     if (out->geometric_normal)
-        out->geometric_normal[slot] = (float4)(s->geometric_normal, 0.0f);
-    if (out->shading_normal) {
-        const float3 normal =
-            material->normal_texture == MACULA_NO_TEXTURE
-                ? s->shading_normal
-                : mapped_normal(s,
-                                sample_texture(tables, material->normal_texture, s->u, s->v, lod));
-        out->shading_normal[slot] = (float4)(normal, 0.0f);
-    }
-    if (out->albedo)
-        out->albedo[slot] =
-            (float4)(textured(tables, material->diffuse, material->diffuse_texture, s, lod), 0.0f);
-    if (out->specular)
-        out->specular[slot] =
-            (float4)(textured(tables, material->specular, material->specular_texture, s, lod),
-                     material->shininess);
-    if (out->emission)
-        out->emission[slot] =
-            (float4)(textured(tables, material->emission, material->emission_texture, s, lod),
-                     0.0f);
+        store4(out->geometric_normal, h->first, select3(h->hit, s->geometric_normal, nothing),
+               zero);
+    if (out->triangle)
+        store_uints(out->triangle, h->first, h->hit ? h->triangle : none);
     if (out->material)
-        out->material[slot] = s->material;
-    if (out->motion)
-        out->motion[slot] =
-            motion_of(frame, s->position - vector_at(frame->camera.origin),
-                      s->previous_position - vector_at(frame->previous_camera.origin));
+        store_uints(out->material, h->first, h->hit ? material : none);
 }
 
-/* One work-item a ray slot. */
+/* What the material and its textures decide. */
+static inline void write_material(const SurfaceOutputs* out, const Hits* h, const SurfacePoint* s,
+                                  const TextureTables* tables,
+                                  global const SurfaceMaterial* materials, Uint material,
+                                  global const float* background, Real lod) {
+    const Real zero = splat(0.0f);
+    const Real3 nothing = splat_vector(splat3(0.0f));
+    const Lane4 diffuse = material_row(materials, material, 0u);
+    const Lane4 specular = material_row(materials, material, 1u);
+    const Lane4 emission = material_row(materials, material, 2u);
+    const Lane4 rest = material_row(materials, material, 3u);
+    if (out->shading_normal) {
+        const Real3 normal = bumped_normal(tables, h->hit, real_bits(rest.xyz.y), s, lod);
+        store4(out->shading_normal, h->first, select3(h->hit, normal, nothing), zero);
+    }
+    if (out->albedo) {
+        const Real3 albedo = textured(tables, h->hit, diffuse.xyz, real_bits(diffuse.w), s, lod);
+        store4(out->albedo, h->first, select3(h->hit, albedo, nothing), zero);
+    }
+    if (out->specular) {
+        const Real3 colour = textured(tables, h->hit, specular.xyz, real_bits(specular.w), s, lod);
+        store4(out->specular, h->first, select3(h->hit, colour, nothing),
+               h->hit ? rest.xyz.x : splat(1.0f));
+    }
+    if (out->emission) {
+        const Real3 colour = textured(tables, h->hit, emission.xyz, real_bits(emission.w), s, lod);
+        store4(out->emission, h->first,
+               select3(h->hit, colour, splat_vector(vector_at(background))), zero);
+    }
+}
+
+/* One work-item for MACULA_LANES ray slots. */
 kernel void resolve_surface(
     global const FrameParams* restrict frame, global const RayBlock* restrict rays,
     global const uint* restrict ray_count, global const HitBlock* restrict hits,
@@ -109,13 +169,9 @@ kernel void resolve_surface(
     global float4* restrict specular, global float4* restrict emission,
     global uint* restrict triangle, global uint* restrict material,
     global float2* restrict motion) {
-    const uint slot = get_global_id(0);
-    if (slot >= *ray_count)
+    const uint first = first_of_item();
+    if (first >= *ray_count)
         return;
-    const uint block = slot / MACULA_RAY_BLOCK, lane = slot % MACULA_RAY_BLOCK;
-    const float3 direction = (float3)(rays[block].direction_x[lane], rays[block].direction_y[lane],
-                                      rays[block].direction_z[lane]);
-    const uint id = hits[block].triangle[lane];
     SurfaceOutputs out;
     out.depth = depth;
     out.position = position;
@@ -127,21 +183,28 @@ kernel void resolve_surface(
     out.triangle = triangle;
     out.material = material;
     out.motion = motion;
-    if (id == MACULA_NO_TRIANGLE) {
-        write_background(&out, slot, frame, direction);
+    const Hits h = load_hits(rays, hits, first, *ray_count);
+    if (!any_lane(h.hit)) {
+        write_background(&out, &h, frame);
         return;
     }
-    const TextureTables tables = {textures, levels, texels, decode};
-    const uint instance = instance_of_triangle(instances, instance_count, id);
+    const Uint instance = instance_of_triangle(instances, instance_count, h.triangle);
+    const Placement placement = load_placement(instances, instance);
+    Uint of_hit;
+    SurfaceCorner a, b, c;
+    load_corners(instances, instance, triangles, vertices, h.triangle, &a, &b, &c, &of_hit);
     SurfacePoint s;
-    surface_point(instances + instance, triangles, vertices, id, hits[block].u[lane],
-                  hits[block].v[lane], direction, &s);
+    surface_point(&a, &b, &c, &placement, h.u, h.v, h.direction, &s);
+    write_geometry(&out, &h, &s, of_hit);
     /* t along a primary ray is the depth, and the cone's width grows with the depth. */
-    const float t = hits[block].t[lane];
-    const float lod = surface_lod(&s, t * frame->pixel_spread, direction);
-    if (depth)
-        depth[slot] = t;
-    if (triangle)
-        triangle[slot] = id;
-    write_surface(&out, slot, frame, &s, &tables, materials + s.material, lod);
+    const Real lod = surface_lod(&s, h.t * frame->pixel_spread, h.direction);
+    const TextureTables tables = {textures, levels, texels, decode};
+    write_material(&out, &h, &s, &tables, materials, of_hit, frame->background, lod);
+    if (motion) {
+        const LaneMatrix previous = load_previous(instances, instance);
+        const Real3 now = splat_vector(vector_at(frame->camera.origin));
+        const Real3 then = splat_vector(vector_at(frame->previous_camera.origin));
+        write_motion(motion, first, frame, select3(h.hit, sub3(s.position, now), h.direction),
+                     select3(h.hit, sub3(transform_point(&previous, s.object), then), h.direction));
+    }
 }

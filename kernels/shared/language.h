@@ -18,6 +18,8 @@
  * vectoriser mixes up such variables when the function is not inlined (docs/arithmetic.md asks for
  * the same bits on every runtime). */
 #define MACULA_ALWAYS_INLINE static inline __attribute__((always_inline))
+/* For functions that exist for several widths of vectors. */
+#define MACULA_OVERLOADED static inline __attribute__((overloadable, always_inline))
 #define MACULA_ASSERT_SIZE(type, bytes)                                                            \
     typedef char macula_size_of_##type[(sizeof(type) == (bytes)) ? 1 : -1]
 
@@ -34,6 +36,7 @@
 #define MACULA_CONSTANT const
 #define MACULA_INLINE inline
 #define MACULA_ALWAYS_INLINE inline
+#define MACULA_OVERLOADED inline
 #define MACULA_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes))
 
 namespace macula::shared {
@@ -70,7 +73,22 @@ inline float fabs(float x) {
 inline float copysign(float x, float y) {
     return std::copysign(x, y);
 }
+inline int convert_int(float x) {
+    return static_cast<int>(x);
+}
+inline float convert_float(int x) {
+    return static_cast<float>(x);
+}
+inline float convert_float(uint x) {
+    return static_cast<float>(x);
+}
 } // namespace macula::shared
 
 #endif
+
+/* MACULA_OF_WIDTH(float) is float, float8 or float16, by the macro MACULA_WIDTH: empty, 8 or 16. */
+#define MACULA_JOIN_EXPANDED(a, b) a##b
+#define MACULA_JOIN(a, b) MACULA_JOIN_EXPANDED(a, b)
+#define MACULA_OF_WIDTH(name) MACULA_JOIN(name, MACULA_WIDTH)
+
 #endif

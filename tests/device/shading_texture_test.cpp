@@ -9,6 +9,7 @@
 #include "host/frame/surfaces.hpp"
 #include "host/kernel/library.hpp"
 #include "lib/surface.h"
+#include "lib/texture.h"
 
 namespace {
 using namespace macula;

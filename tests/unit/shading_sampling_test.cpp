@@ -106,7 +106,9 @@ TEST(Basis, IsOrthonormalAlsoNearTheSouthPole) {
                              float3{0.6f, -0.48f, 0.64f}, float3{-1, 0, 0}, float3{0, 1, 0}}) {
         const float3 n = unit3(raw, {0, 0, 1});
         float3 t{}, b{};
-        basis_around(n, &t, &b);
+        const Basis basis = make_basis(n);
+        t = basis.tangent;
+        b = basis.bitangent;
         EXPECT_NEAR(dot(t, t), 1.0, 1e-6);
         EXPECT_NEAR(dot(b, b), 1.0, 1e-6);
         EXPECT_NEAR(dot(t, b), 0.0, 1e-6);
