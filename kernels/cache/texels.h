@@ -33,7 +33,8 @@ MACULA_ALWAYS_INLINE void find_texels(const HistoryPacket* history, uint width, 
 
 /* The texels of four neighbours of a row are mostly neighbours of a row, too. */
 typedef struct Spans {
-    uint straight; /* bit n: lane n's texels are where its row's first ones say */
+    uint straight; /* bit n: lane n's texels, and one more each way, lie as its row's first one says
+                    */
     int first[4];  /* index of the texel for each row's first lane */
 } Spans;
 
@@ -43,8 +44,8 @@ MACULA_ALWAYS_INLINE void find_spans(const Texels* t, int16 known, uint width, u
     const int16 start = known ? t->upper_left - column : (int16)(0x7fffffff);
     const int16 pairs = min(start, start.s1032547698badcfe);
     const int16 least = min(pairs, pairs.s23016745ab89efcd);
-    const int last = (int)(width * height - width) - 4;
-    const int16 whole = (start == least) & (start >= 0) & (start < last) &
+    const int last = (int)(width * height) - 2 * (int)width - 5;
+    const int16 whole = (start == least) & (start > (int)width) & (start < last) &
                         (t->upper_right == t->upper_left + 1) &
                         (t->lower_left == t->upper_left + (int)width);
     spans->straight = bits_of_lanes16(whole | ~known);
@@ -57,6 +58,44 @@ MACULA_ALWAYS_INLINE float16 blend_texels(float16 a, float16 b, float16 c, float
     return fma(bottom - top, to_y, top);
 }
 
+/* Catmull and Rom's weights of four texels for places between the two in the middle. */
+typedef struct Cubic {
+    float16 before, first, second, after;
+} Cubic;
+
+MACULA_ALWAYS_INLINE Cubic cubic_weights16(float16 t) {
+    const float16 s = 1.0f - t;
+    Cubic w;
+    w.before = -0.5f * t * (s * s);
+    w.first = fma(t * t, fma(t, (float16)(1.5f), (float16)(-2.5f)), (float16)(1.0f));
+    w.second = fma(s * s, fma(s, (float16)(1.5f), (float16)(-2.5f)), (float16)(1.0f));
+    w.after = -0.5f * s * (t * t);
+    return w;
+}
+
+/* Four pixels' texels side by side, from `at` on. */
+MACULA_ALWAYS_INLINE float16 cubic_row16(global const float* at, const Cubic* w) {
+    const float16 outer = fma(vload16(0, at - 4), w->before, vload16(0, at + 8) * w->after);
+    return fma(vload16(0, at), w->first, fma(vload16(0, at + 4), w->second, outer));
+}
+
+/* Between four by four texels, but within what the inner four span: sharper than between those
+ * alone, since a history is read anew in every frame, and without ringing. */
+MACULA_ALWAYS_INLINE float16 cubic_texels16(global const float* at, uint width, float16 to_x,
+                                            float16 to_y) {
+    const uint line = 4u * width;
+    const Cubic x = cubic_weights16(to_x), y = cubic_weights16(to_y);
+    const float16 outer =
+        fma(cubic_row16(at - line, &x), y.before, cubic_row16(at + 2u * line, &x) * y.after);
+    const float16 value =
+        fma(cubic_row16(at, &x), y.first, fma(cubic_row16(at + line, &x), y.second, outer));
+    const float16 a = vload16(0, at), b = vload16(0, at + 4);
+    const float16 c = vload16(0, at + line), d = vload16(0, at + line + 4);
+    const float16 low = m_min16(m_min16(a, b), m_min16(c, d));
+    const float16 high = m_max16(m_max16(a, b), m_max16(c, d));
+    return m_min16(m_max16(value, low), high);
+}
+
 MACULA_ALWAYS_INLINE float16 four_texels(global const float4* image, const int* index) {
     return (float16)(image[index[0]], image[index[1]], image[index[2]], image[index[3]]);
 }
@@ -67,7 +106,8 @@ typedef struct Lanes {
     float to_x[16], to_y[16];
 } Lanes;
 
-/* Colours of the four pixels of a row between their texels. */
+/* Colours of the four pixels of a row between their texels: four each where these are scattered, or
+ * at the image's edge. */
 MACULA_ALWAYS_INLINE float16 row_of_colours(global const float4* image, const Lanes* t,
                                             const Spans* spans, uint width, uint row) {
     const float4 x = vload4(row, t->to_x), y = vload4(row, t->to_y);
@@ -75,8 +115,7 @@ MACULA_ALWAYS_INLINE float16 row_of_colours(global const float4* image, const La
     const float16 to_y = (float16)(y.xxxx, y.yyyy, y.zzzz, y.wwww);
     if ((spans->straight >> 4u * row & 15u) == 15u) {
         global const float* at = (global const float*)(image + spans->first[row]);
-        return blend_texels(vload16(0, at), vload16(0, at + 4), vload16(0, at + 4u * width),
-                            vload16(0, at + 4u * width + 4), to_x, to_y);
+        return cubic_texels16(at, width, to_x, to_y);
     }
     return blend_texels(four_texels(image, t->upper_left + 4u * row),
                         four_texels(image, t->upper_right + 4u * row),
