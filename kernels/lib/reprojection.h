@@ -8,8 +8,8 @@
  * interpolated ratio, are linear on the screen: a homography, so that a view that did not move maps
  * every pixel to itself.
  *
- * A key is what the depth test keeps the least of, with an integer atomic_min: from the upper bits
- * on a rank of the depth, the cell, and one bit that asks for a new sample. */
+ * A key is what the depth test keeps the least of: from the upper bits on a rank of the depth, the
+ * cell, and one bit that asks for a new sample. */
 #ifndef MACULA_LIB_REPROJECTION_H
 #define MACULA_LIB_REPROJECTION_H
 
