@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Runs every kernel on small frames inside Oclgrind, an OpenCL device that is an interpreter: no data
 # race, no access out of bounds, no uninitialised read. Usage: oclgrind.sh BUILD-DIRECTORY
+# Code 77: Oclgrind is not there.
 # Oclgrind's exit code says nothing of what it found, so its log is read.
 set -euo pipefail
 macula=$1/macula
 if ! command -v oclgrind >/dev/null; then
   echo 'oclgrind: skipped (package oclgrind is not installed)'
-  exit 0
+  exit 77
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
