@@ -174,7 +174,8 @@ const Expected kScenes[] = {
     {"gltf_small/living_room_flat.glb", 5088, 7, 0, {-5, -1.5f, -2.5f}, {5, 4, 12}, 0.001f},
 };
 
-// A sanitizer build loads no larger scenes: the small ones run the same code.
+// A sanitizer build loads no larger scenes and none with textures: the small ones, and the tests of
+// images, run the same code.
 constexpr std::uint64_t kMostSanitizedTriangles = 8000;
 
 std::filesystem::path path_of(const std::string& file) {
@@ -189,7 +190,7 @@ std::string reason_to_skip(const std::string& file) {
                                     [&](const Expected& each) { return each.file == file; });
     if (scene == std::end(kScenes))
         throw std::invalid_argument(file + " is not one of kScenes");
-    if (test::kSanitized && scene->triangles > kMostSanitizedTriangles)
+    if (test::kSanitized && (scene->triangles > kMostSanitizedTriangles || scene->textures > 0))
         return test::too_long_sanitized(file);
     return {};
 }
