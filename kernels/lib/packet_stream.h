@@ -25,9 +25,17 @@ typedef struct PacketStream {
 static inline uint push_packets(MaskedEntry* stack, uint depth, uint index, int8 found,
                                 float8 nearest) {
     const uint slot = index * 8u;
-    const uint slots[8] = {slot,      slot + 1u, slot + 2u, slot + 3u,
-                           slot + 4u, slot + 5u, slot + 6u, slot + 7u};
-    return push_children8(stack, depth, slots, found, child_keys8(found, as_int8(nearest) & ~7));
+    const int8 place = push_places8(child_keys8(found, as_int8(nearest) & ~7));
+    stack += depth;
+    put_entry(stack, place.s0, slot, found.s0);
+    put_entry(stack, place.s1, slot + 1u, found.s1);
+    put_entry(stack, place.s2, slot + 2u, found.s2);
+    put_entry(stack, place.s3, slot + 3u, found.s3);
+    put_entry(stack, place.s4, slot + 4u, found.s4);
+    put_entry(stack, place.s5, slot + 5u, found.s5);
+    put_entry(stack, place.s6, slot + 6u, found.s6);
+    put_entry(stack, place.s7, slot + 7u, found.s7);
+    return depth + entered_children8(found);
 }
 
 /* Tests the packets' frusta against a node's children and puts those that are entered on the stack

@@ -73,10 +73,17 @@ static inline StreamChildren enter_children8(global const Wide8Node* node, const
 
 static inline uint push_rays(MaskedEntry* stack, uint depth, global const Wide8Node* node,
                              const StreamChildren* found) {
-    const uint children[8] = {(uint)node->child[0], (uint)node->child[1], (uint)node->child[2],
-                              (uint)node->child[3], (uint)node->child[4], (uint)node->child[5],
-                              (uint)node->child[6], (uint)node->child[7]};
-    return push_children8(stack, depth, children, found->rays, found->key);
+    const int8 place = push_places8(found->key);
+    stack += depth;
+    put_entry(stack, place.s0, (uint)node->child[0], found->rays.s0);
+    put_entry(stack, place.s1, (uint)node->child[1], found->rays.s1);
+    put_entry(stack, place.s2, (uint)node->child[2], found->rays.s2);
+    put_entry(stack, place.s3, (uint)node->child[3], found->rays.s3);
+    put_entry(stack, place.s4, (uint)node->child[4], found->rays.s4);
+    put_entry(stack, place.s5, (uint)node->child[5], found->rays.s5);
+    put_entry(stack, place.s6, (uint)node->child[6], found->rays.s6);
+    put_entry(stack, place.s7, (uint)node->child[7], found->rays.s7);
+    return depth + entered_children8(found->rays);
 }
 
 static inline void fetch_child(const TraceScene* scene, int child) {
