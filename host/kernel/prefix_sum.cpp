@@ -37,25 +37,23 @@ PrefixSum::PrefixSum(Library& library, const compute::Device& device, std::uint6
       sum_tiles_(library.kernel(scan_key(), "sum_tiles", device)),
       scan_tiles_(library.kernel(scan_key(), "scan_tiles", device)),
       scan_top_(library.kernel(scan_key(), "scan_top", device)) {
-    for (std::uint64_t n = capacity_; n > kTile;) {
+    std::uint64_t n = capacity_;
+    do {
         n = tiles_of(n);
         sums_.push_back(device.allocate_array<std::uint32_t>(n, "prefix sum of tiles"));
-    }
+    } while (n > kTile);
 }
 
-void PrefixSum::exclusive(const compute::Buffer& values, const compute::Buffer& count,
-                          const compute::Buffer& offsets, const compute::Buffer& total,
-                          const std::string& stage) {
+const compute::Buffer& PrefixSum::tile_offsets(const compute::Buffer& values,
+                                               const compute::Buffer& count,
+                                               const compute::Buffer& total,
+                                               const std::string& stage) {
     require_room(values, capacity_);
-    require_room(offsets, capacity_);
     if (total.state() == count.state())
         throw compute::Error("prefix sum: the total would overwrite the count that it still needs");
     const auto capacity = static_cast<std::uint32_t>(capacity_);
     const auto top = static_cast<std::uint32_t>(sums_.size());
     const auto input = [&](std::uint32_t level) { return level == 0 ? values : sums_[level - 1]; };
-    const auto output = [&](std::uint32_t level) {
-        return level == 0 ? offsets : sums_[level - 1];
-    };
     const auto launch = [&](compute::Kernel& kernel, std::uint64_t tiles) {
         kernel.launch(stage, {static_cast<std::size_t>(tiles) * kWorkGroup}, {kWorkGroup});
     };
@@ -66,23 +64,32 @@ void PrefixSum::exclusive(const compute::Buffer& values, const compute::Buffer& 
         tiles.push_back(n);
         launch(sum_tiles_.set(input(level), count, capacity, level, sums_[level]), n);
     }
-    launch(scan_top_.set(input(top), count, capacity, top, output(top), total), 1);
-    for (std::uint32_t level = top; level-- > 0;)
-        launch(scan_tiles_.set(input(level), count, capacity, level, sums_[level], output(level)),
+    launch(scan_top_.set(input(top), count, capacity, top, input(top), total), 1);
+    for (std::uint32_t level = top; level-- > 1;)
+        launch(scan_tiles_.set(input(level), count, capacity, level, sums_[level], input(level)),
                tiles[level]);
+    return sums_.front();
+}
+
+void PrefixSum::exclusive(const compute::Buffer& values, const compute::Buffer& count,
+                          const compute::Buffer& offsets, const compute::Buffer& total,
+                          const std::string& stage) {
+    require_room(offsets, capacity_);
+    const compute::Buffer& before = tile_offsets(values, count, total, stage);
+    scan_tiles_.set(values, count, static_cast<std::uint32_t>(capacity_), 0U, before, offsets)
+        .launch(stage, {compute::Range::cover(capacity_, kTile) / kItems}, {kWorkGroup});
 }
 
 Compaction::Compaction(Library& library, const compute::Device& device, std::uint64_t capacity)
     : sum_(library, device, capacity),
-      offsets_(device.allocate_array<std::uint32_t>(capacity, "compaction offsets")),
-      scatter_(library.kernel(scan_key(), "scatter_indices", device)) {}
+      compact_(library.kernel(scan_key(), "compact_tiles", device)) {}
 
 void Compaction::run(const compute::Buffer& flags, const compute::Buffer& count,
                      const compute::Buffer& indices, const compute::Buffer& total,
                      const std::string& stage) {
-    sum_.exclusive(flags, count, offsets_, total, stage);
+    const compute::Buffer& before = sum_.tile_offsets(flags, count, total, stage);
     const auto capacity = static_cast<std::uint32_t>(sum_.capacity());
-    scatter_.set(flags, offsets_, count, capacity, indices)
+    compact_.set(flags, count, capacity, before, indices)
         .launch(stage, {compute::Range::cover(capacity, kTile) / kItems}, {kWorkGroup});
 }
 

@@ -26,6 +26,11 @@ class PrefixSum {
                    const compute::Buffer& offsets, const compute::Buffer& total,
                    const std::string& stage = "prefix sum");
 
+    /// The offsets of the tiles of 2048 elements alone: what their elements' offsets begin with.
+    /// Valid until the next call.
+    const compute::Buffer& tile_offsets(const compute::Buffer& values, const compute::Buffer& count,
+                                        const compute::Buffer& total, const std::string& stage);
+
     std::uint64_t capacity() const { return capacity_; }
 
   private:
@@ -48,8 +53,7 @@ class Compaction {
 
   private:
     PrefixSum sum_;
-    compute::Buffer offsets_;
-    compute::Kernel scatter_;
+    compute::Kernel compact_;
 };
 
 } // namespace macula::kernel

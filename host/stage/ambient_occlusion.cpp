@@ -20,8 +20,9 @@ class AmbientOcclusion {
     }
 
     void operator()(frame::Run& run) {
-        run["surface openness"].fill(0);
-        flag_.set(run["ray count"], run["surface triangle"], run.scratch("queue flags"))
+        flag_
+            .set(run["ray count"], run["surface triangle"], run.scratch("queue flags"),
+                 run["surface openness"])
             .launch("flag surfaces", kit_.lane_items(kit_.slots()), kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
                         run.scratch("queue count"), "queue surfaces");

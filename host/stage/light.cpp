@@ -21,18 +21,25 @@ class DirectLight {
     }
 
     void operator()(frame::Run& run) {
-        run["surface irradiance"].fill(0);
-        if (run["surface highlight"])
-            run["surface highlight"].fill(0);
+        if (kit_.lights.empty())
+            clear(run);
         for (std::uint32_t light = 0; light < kit_.lights.size(); ++light)
             one_light(run, light);
     }
 
   private:
+    // Otherwise the first light does it.
+    static void clear(frame::Run& run) {
+        run["surface irradiance"].fill(0);
+        if (run["surface highlight"])
+            run["surface highlight"].fill(0);
+    }
+
     void one_light(frame::Run& run, std::uint32_t light) {
         flag_
             .set(run["ray count"], run["surface triangle"], run["surface position"],
-                 run["surface geometric normal"], lights_, light, run.scratch("queue flags"))
+                 run["surface geometric normal"], lights_, light, run.scratch("queue flags"),
+                 run["surface irradiance"], run["surface highlight"])
             .launch("flag lit surfaces", kit_.lane_items(kit_.slots()), kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
                         run.scratch("queue count"), "queue lit surfaces");

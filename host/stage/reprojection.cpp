@@ -89,14 +89,16 @@ frame::Stage judge_history(const FoveatedKit& kit) {
     frame::Stage stage;
     stage.name = "judge the history";
     stage.reads = {"resampling info"};
+    stage.reads_last = {"support geometry"};
     stage.writes = {{"history kept", 4, 1}};
     stage.prepare = [kit, name = stage.name] {
         auto judge = kit.kit.library.kernel(kernel::VariantKey("reproject/mesh"), "judge_history",
                                             kit.kit.device);
         return [kit, name, judge](frame::Run& run) mutable {
             judge
-                .set(kit.grid->params_buffer, run["resampling info"],
-                     compute::LocalMemory{kJudges * sizeof(std::uint32_t)}, run["history kept"])
+                .set(run.params_buffer(), kit.grid->params_buffer, run["resampling info"],
+                     run.last("support geometry"),
+                     compute::LocalMemory{2 * kJudges * sizeof(std::uint32_t)}, run["history kept"])
                 .launch(name, {kJudges}, {kJudges});
         };
     };

@@ -39,8 +39,8 @@ kernel void prewarp(global const FrameParams* restrict frame,
     if (column >= width || row >= height)
         return;
     const float x = (float)column + 0.5f, y = (float)row + 0.5f;
-    warped[row * width + column] =
-        (float4)(seen_through(colour, width, height, lens, 0u, x, y).x,
-                 seen_through(colour, width, height, lens, 1u, x, y).y,
-                 seen_through(colour, width, height, lens, 2u, x, y).z, 1.0f);
+    const float4 red = seen_through(colour, width, height, lens, 0u, x, y);
+    const float4 green = seen_through(colour, width, height, lens, 1u, x, y);
+    const float4 blue = seen_through(colour, width, height, lens, 2u, x, y);
+    warped[row * width + column] = (float4)(red.x, green.y, blue.z, 1.0f);
 }

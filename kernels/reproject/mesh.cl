@@ -71,22 +71,41 @@ kernel void project_mesh(global const FrameParams* restrict frame,
         vertices[first + lane] = (float4)(x[lane], y[lane], z[lane], w[lane]);
 }
 
-/* A cut or a teleport shows less than half of what the last frame saw: then all of the history is
- * dropped. One work-group; partial: one word of local memory for each work-item. */
-kernel void judge_history(global const WeierParams* restrict weier,
-                          global const uint* restrict errors, local uint* restrict partial,
-                          global uint* restrict history) {
+/* The camera's way from the last frame to this one beyond which a sample tells nothing any more, as
+ * a part of its depth: at 90 frames a second and 5 m that is faster than 100 m/s. */
+#define MOST_WAY 0.25f
+
+static inline uint is_left_behind(float4 sample, float way) {
+    return way * inverse_depth_of(sample) > MOST_WAY ? 1u : 0u;
+}
+
+/* A cut or a teleport shows less than half of what the last frame saw, or it moves the eye by a
+ * good part of the depth of half of it: then all of the history is dropped. One work-group;
+ * partial: two words of local memory for each work-item. */
+kernel void judge_history(global const FrameParams* restrict frame,
+                          global const WeierParams* restrict weier,
+                          global const uint* restrict errors, global const float4* restrict support,
+                          local uint* restrict partial, global uint* restrict history) {
     const uint me = (uint)get_local_id(0), group = (uint)get_local_size(0);
     const uint all = weier->support_width * weier->support_height;
-    uint in_view = 0u;
-    for (uint index = me; index < all; index += group)
+    const float3 moved =
+        sub3(vector_at(frame->camera.origin), vector_at(frame->previous_camera.origin));
+    const float way = m_sqrt(dot3(moved, moved));
+    uint in_view = 0u, left_behind = 0u;
+    for (uint index = me; index < all; index += group) {
         in_view += (errors[index] & MACULA_CELL_IN_VIEW) != 0u ? 1u : 0u;
+        left_behind += is_left_behind(support[index], way);
+    }
     partial[me] = in_view;
+    partial[group + me] = left_behind;
     barrier(CLK_LOCAL_MEM_FENCE);
     if (me == 0u) {
-        uint sum = 0u;
-        for (uint k = 0u; k < group; ++k)
-            sum += partial[k];
-        *history = sum * 2u >= (weier->support_width - 1u) * (weier->support_height - 1u);
+        uint seen = 0u, left = 0u;
+        for (uint k = 0u; k < group; ++k) {
+            seen += partial[k];
+            left += partial[group + k];
+        }
+        const uint cells = (weier->support_width - 1u) * (weier->support_height - 1u);
+        *history = seen * 2u >= cells && left * 2u <= all;
     }
 }

@@ -96,17 +96,21 @@ scan_top(global const uint *values, global const uint *count, uint capacity, uin
         *total = up_to_here;
 }
 
-/* indices[k] = position of the k-th flag that is 1, in order. One work-item for ITEMS flags: a loop
- * over the set bits, since CPUs scatter vectors with a few lanes very slowly. */
-kernel void scatter_indices(global const uint *flags, global const uint *offsets,
-                            global const uint *count, uint capacity, global uint *indices) {
-    const uint first = (uint)get_global_id(0) * ITEMS, n = min(*count, capacity);
-    if (first >= n)
+/* indices[k] = position of the k-th flag that is 1, in order. One work-group a tile, whose offset is
+ * known. A loop over the set bits, since CPUs scatter vectors with a few lanes very slowly. */
+kernel __attribute__((reqd_work_group_size(MACULA_WORK_GROUP, 1, 1))) void
+compact_tiles(global const uint *flags, global const uint *count, uint capacity,
+              global const uint *tile_offsets, global uint *indices) {
+    local uint shared_sums[MACULA_WORK_GROUP];
+    const uint n = min(*count, capacity);
+    if ((uint)get_group_id(0) * TILE >= n)
         return;
-    const uint end = min(first + ITEMS, n);
+    const uint first = first_element(), end = min(first + ITEMS, n);
     uint set = 0u;
     for (uint i = first; i < end; ++i)
         set |= (flags[i] != 0u ? 1u : 0u) << (i - first);
-    for (uint place = offsets[first]; set != 0u; set &= set - 1u)
-        indices[place++] = first + popcount((set & -set) - 1u);
+    const uint up_to_here = scan_group(popcount(set), shared_sums);
+    uint place = tile_offsets[get_group_id(0)] + up_to_here - popcount(set);
+    for (uint rest = set; rest != 0u; rest &= rest - 1u)
+        indices[place++] = first + popcount((rest & -rest) - 1u);
 }

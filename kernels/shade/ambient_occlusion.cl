@@ -3,13 +3,15 @@
 #include "shade/queue.h"
 #include "shared/camera.h"
 
-/* flags[slot] = 1 where something was hit, up to the list's end. One work-item for MACULA_LANES
- * slots of the launch. */
+/* flags[slot] = 1 where something was hit, up to the list's end; openness begins as 0. One
+ * work-item for MACULA_LANES slots of the launch. */
 kernel void flag_surfaces(global const uint* restrict ray_count,
-                          global const uint* restrict triangle, global uint* restrict flags) {
+                          global const uint* restrict triangle, global uint* restrict flags,
+                          global float* restrict openness) {
     if (beyond_list(*ray_count))
         return;
     const uint first = first_of_item();
+    store_reals(openness, first, splat(0.0f));
     const Uint slot = lanes_from(first);
     const Mask hit = (slot < *ray_count) & (load_uints(triangle, first) != MACULA_NO_TRIANGLE);
     store_uints(flags, first, hit ? splat_uint(1u) : splat_uint(0u));

@@ -6,17 +6,23 @@
 #include "shared/bvh.h"
 #include "shared/ray.h"
 
-/* flags[slot] = 1 where shadow rays are needed, up to the list's end. One work-item for
- * MACULA_LANES slots of the launch. */
+/* flags[slot] = 1 where shadow rays are needed, up to the list's end; the first light clears the
+ * sums. One work-item for MACULA_LANES slots of the launch. */
 kernel void flag_lit_surfaces(global const uint* restrict ray_count,
                               global const uint* restrict triangle,
                               global const float4* restrict position,
                               global const float4* restrict geometric_normal,
                               global const Light* restrict lights, uint light,
-                              global uint* restrict flags) {
+                              global uint* restrict flags, global float4* restrict irradiance,
+                              global float4* restrict highlight) {
     if (beyond_list(*ray_count))
         return;
     const uint first = first_of_item();
+    const Real3 nothing = splat_vector(splat3(0.0f));
+    if (light == 0u)
+        store4(irradiance, first, nothing, splat(0.0f));
+    if (light == 0u && highlight)
+        store4(highlight, first, nothing, splat(0.0f));
     const Mask hit =
         (lanes_from(first) < *ray_count) & (load_uints(triangle, first) != MACULA_NO_TRIANGLE);
     const Mask lit = hit & light_may_reach(lights + light, load4(position, first).xyz,

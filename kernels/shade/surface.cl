@@ -1,5 +1,6 @@
 /* Resolves hits into the G-buffer. Outputs that nobody reads are null. */
 #include "lib/camera.h"
+#include "lib/simd.h"
 #include "lib/texture.h"
 #include "shade/corners.h"
 #include "shared/ray.h"
@@ -28,11 +29,26 @@ typedef struct Hits {
     Real3 direction;
 } Hits;
 
+/* Blocks are too long for the hardware to see where the next reads go; those of the work-items
+ * after these are asked for early. */
+#define FETCH_AHEAD 6u
+
+static inline void fetch_hits(global const RayBlock* ray, global const HitBlock* found) {
+    MACULA_FETCH(ray->direction_x, 0u);
+    MACULA_FETCH(ray->direction_y, 0u);
+    MACULA_FETCH(ray->direction_z, 0u);
+    MACULA_FETCH(found->t, 0u);
+    MACULA_FETCH(found->triangle, 0u);
+    MACULA_FETCH(found->u, 0u);
+    MACULA_FETCH(found->v, 0u);
+}
+
 static inline Hits load_hits(global const RayBlock* rays, global const HitBlock* hits, uint first,
                              uint ray_count) {
     global const RayBlock* ray = rays + first / MACULA_RAY_BLOCK;
     global const HitBlock* found = hits + first / MACULA_RAY_BLOCK;
     const uint lane = first % MACULA_RAY_BLOCK;
+    fetch_hits(ray + FETCH_AHEAD, found + FETCH_AHEAD);
     const Uint triangle = load_uints(found->triangle, lane);
     Hits h;
     h.first = first;

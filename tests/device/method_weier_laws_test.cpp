@@ -96,6 +96,22 @@ TEST_P(EachMode, ATeleportForgetsTheHistoryByItself) {
     EXPECT_TRUE(same_bits(jumping.read<Float4>("colour"), fresh.read<Float4>("colour")));
 }
 
+// What was ahead still is, at another distance.
+TEST_P(EachMode, ATeleportForwardsForgetsTheHistoryByItself) {
+    WeierSetup setup;
+    setup.lights = GetParam();
+    WeierFrames jumping(device(), cornell(), setup), fresh(device(), cornell(), setup);
+    for (std::uint32_t frame = 0; frame < 4; ++frame)
+        jumping.run(frame, cornell().cameras.front());
+    scene::Camera ahead = cornell().cameras.front();
+    const glm::vec3 step = 0.5f * (ahead.target - ahead.eye);
+    ahead.eye += step;
+    ahead.target += step;
+    jumping.run(4, ahead);
+    fresh.run(4, ahead);
+    EXPECT_TRUE(same_bits(jumping.read<Float4>("colour"), fresh.read<Float4>("colour")));
+}
+
 // Without history there is nothing to reconstruct from.
 TEST_P(EachMode, AFrameWithoutHistoryIsMethodFullBitForBit) {
     WeierSetup setup;

@@ -68,6 +68,8 @@ frame=(render cornell "${picture[@]}")
 # Read first: a process that gives lines would be one of those that `wait -n` waits for.
 variants=$("$macula" variants --names)
 methods=$("$macula" explain)
+printf '%s\n' 'width = 16' 'height = 16' '[screen]' 'width_mm = 90' 'distance_mm = 45' \
+  '[distortion]' 'red = [0.1]' 'green = [0.2, 0.1]' >"$scratch/lens.toml"
 aovs=albedo,irradiance,depth,position,normal,shading_normal,triangle,material,motion
 
 # Not for uninitialised reads: of two prefix sums, 256 and then 4095 elements, Oclgrind 21.10 calls
@@ -78,6 +80,7 @@ for check in "$races" "$uninitialised"; do
   for lights in point area ao; do
     under "cornell, $lights lights" "$check" "${frame[@]}" --lights "$lights"
   done
+  under 'a lens' "$check" "${frame[@]}" --display "$scratch/lens.toml" --distort
   under 'highlights and every image' "$check" render whitted "${picture[@]}" --aov "$aovs"
   while read -r variant; do
     # Oclgrind 21.10 itself crashes in its check for uninitialised reads of these two.
