@@ -2,7 +2,8 @@
 # Sourced by bash; the caller has set -euo pipefail, program, arguments and summary, and stands in
 # the repository's root.
 
-# What building and running need; what only the tests need.
+# What building and running need; what the tests need; what single parts of ./check need, which are
+# left out where it is missing.
 build_packages=(
   cmake ninja-build g++ pkg-config
   ocl-icd-opencl-dev opencl-clhpp-headers opencl-c-headers pocl-opencl-icd
@@ -10,8 +11,8 @@ build_packages=(
   libtinygltf-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev
   libzstd-dev zlib1g-dev
 )
-test_packages=(libgtest-dev libgmock-dev oclgrind mesa-opencl-icd clang libclang-rt-14-dev
-  python3-venv)
+test_packages=(libgtest-dev libgmock-dev)
+check_packages=(oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3-venv)
 
 say() { printf '%s: %s\n' "$program" "$*"; }
 
@@ -30,20 +31,23 @@ install_packages() {
   ((${#missing[@]} == 0)) && return 0
   if [[ $may_install == no ]]; then
     say "missing packages (--no-install was given): ${missing[*]}" >&2
-    exit 1
+    return 1
   fi
   local -a as_root=()
   if ((EUID != 0)); then
     if ! command -v sudo >/dev/null; then
       say "missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
-      exit 1
+      return 1
     fi
     as_root=(sudo)
   fi
   say "installing from Debian: ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  if ! { "${as_root[@]}" apt-get update -qq &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null; }; then
+    say "apt-get could not install them (see above): ${missing[*]}" >&2
+    return 1
+  fi
 }
 
 # build PRESET [CMAKE-OPTION...]: configures by CMakePresets.json and builds what is out of date;

@@ -128,15 +128,7 @@ macula::app::Run add(CLI::App& command) {
 #else
 
 namespace {
-
-macula::app::Run add(CLI::App& command) {
-    command.allow_extras();
-    return []() -> int {
-        throw std::runtime_error("bench: built without the benchmarks; configure with "
-                                 "-DMACULA_BUILD_BENCH=ON and Embree 3 (libembree-dev) installed");
-    };
-}
-
+constexpr auto add = macula::app::add_without_benchmarks;
 } // namespace
 
 #endif

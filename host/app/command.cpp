@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string_view>
 
 namespace macula::app {
@@ -21,6 +22,15 @@ std::vector<Command>& registry() {
 Command::Command(const char* command_name, const char* command_summary, Add command_add)
     : name(command_name), summary(command_summary), add(command_add) {
     registry().push_back(*this);
+}
+
+Run add_without_benchmarks(CLI::App& command) {
+    command.allow_extras();
+    return [name = command.get_name()]() -> int {
+        throw std::runtime_error(name + ": built without the benchmarks; configure with "
+                                        "-DMACULA_BUILD_BENCH=ON and Embree 3 (libembree-dev) "
+                                        "installed");
+    };
 }
 
 std::vector<Command> commands() {

@@ -42,6 +42,9 @@ class Command {
     Add add;
 };
 
+/// What stands for a command that the program was built without: running it is an error.
+Run add_without_benchmarks(CLI::App& command);
+
 /// All commands, sorted by name.
 std::vector<Command> commands();
 

@@ -1,5 +1,6 @@
 #include "host/selftest/selftest.hpp"
 
+#include "bvh/ray_blocks.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/selftest/scene.hpp"
 #include "host/stage/trace.hpp"
@@ -12,25 +13,6 @@ namespace macula::selftest {
 namespace {
 
 using kernel::RayClass;
-
-// Packs rays into blocks; lanes beyond the last ray are inactive (t_min > t_max).
-std::vector<shared::RayBlock> blocks_of(const std::vector<bvh::Ray>& rays) {
-    std::vector<shared::RayBlock> blocks((rays.size() + 15) / 16);
-    for (std::size_t i = 0; i < blocks.size() * 16; ++i) {
-        shared::RayBlock& block = blocks[i / 16];
-        const std::size_t lane = i % 16;
-        const bvh::Ray ray = i < rays.size() ? rays[i] : bvh::Ray{{}, {0, 0, 1}, 1.0f, 0.0f};
-        block.origin_x[lane] = ray.origin[0];
-        block.origin_y[lane] = ray.origin[1];
-        block.origin_z[lane] = ray.origin[2];
-        block.direction_x[lane] = ray.direction[0];
-        block.direction_y[lane] = ray.direction[1];
-        block.direction_z[lane] = ray.direction[2];
-        block.t_min[lane] = ray.t_min;
-        block.t_max[lane] = ray.t_max;
-    }
-    return blocks;
-}
 
 bool same(const shared::HitBlock& block, std::size_t lane, const shared::TraceHit& hit) {
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
@@ -56,7 +38,7 @@ Bundle make_bundle(const compute::Device& device, const bvh::ReferenceScene& ref
         bundle.hits.push_back(bvh::closest(ray, reference));
         bundle.occluded.push_back(bvh::occluded(ray, reference));
     }
-    const std::vector<shared::RayBlock> blocks = blocks_of(bundle.rays);
+    const std::vector<shared::RayBlock> blocks = bvh::blocks_of(bundle.rays, bundle.rays.size());
     const std::uint32_t count = static_cast<std::uint32_t>(bundle.rays.size());
     bundle.capacity = static_cast<std::uint32_t>(blocks.size() * 16);
     bundle.blocks = device.upload(std::span(blocks), "self-test rays");

@@ -1,27 +1,11 @@
 /* Primary rays through the middles of a coarser grid of pixels that covers the view. */
 #include "lib/camera_ray.h"
-#include "shared/surface.h"
 
-/* One work-item a slot of the order of lib/camera.h for width x height samples; the launch covers
- * slot_count(width, height), which is the ray count. pixels: index of the sample. */
+/* One work-item a slot of generate_camera_ray for width x height samples. */
 kernel void generate_grid_rays(global const FrameParams* restrict frame, uint width, uint height,
                                uint sample, global RayBlock* restrict rays,
                                global uint* restrict pixels, global uint* restrict ray_count,
                                global ulong* restrict ray_totals, uint ray_class) {
-    const uint slot = (uint)get_global_id(0);
-    uint x, y;
-    pixel_of_slot(slot, width, &x, &y);
-    const bool inside = x < width && y < height;
-    const uint pixel = y * width + x;
-    float dx, dy;
-    subpixel_offset(random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid, &dx,
-                    &dy);
-    const float3 direction =
-        camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
-    store_camera_ray(frame, rays, slot, direction, inside ? MACULA_BACKGROUND_DEPTH : -1.0f);
-    pixels[slot] = inside ? pixel : MACULA_NO_PIXEL;
-    if (slot == 0u) {
-        *ray_count = (uint)get_global_size(0);
-        ray_totals[ray_class] += width * height;
-    }
+    generate_camera_ray(frame, width, height, sample, (uint)get_global_id(0), rays, pixels,
+                        ray_count, ray_totals + ray_class);
 }

@@ -4,6 +4,7 @@
 
 #include "lib/camera.h"
 #include "shared/ray.h"
+#include "shared/surface.h"
 
 /* `t_max`: -1 for a ray that is not to be traced. */
 static inline void store_camera_ray(global const FrameParams* frame, global RayBlock* rays,
@@ -18,6 +19,30 @@ static inline void store_camera_ray(global const FrameParams* frame, global RayB
     block->direction_y[lane] = direction.y;
     block->direction_z[lane] = direction.z;
     block->t_max[lane] = t_max;
+}
+
+/* The ray of sample `sample` of pixel `slot` of the order of lib/camera.h for width x height pixels
+ * that cover the view. pixels: the pixel's index, MACULA_NO_PIXEL beyond the last. The launch
+ * covers slot_count(width, height), which is the ray count. */
+static inline void generate_camera_ray(global const FrameParams* frame, uint width, uint height,
+                                       uint sample, uint slot, global RayBlock* rays,
+                                       global uint* pixels, global uint* ray_count,
+                                       global ulong* total) {
+    uint x, y;
+    pixel_of_slot(slot, width, &x, &y);
+    const bool inside = x < width && y < height;
+    const uint pixel = y * width + x;
+    float dx, dy;
+    subpixel_offset(random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid, &dx,
+                    &dy);
+    const float3 direction =
+        camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
+    store_camera_ray(frame, rays, slot, direction, inside ? MACULA_BACKGROUND_DEPTH : -1.0f);
+    pixels[slot] = inside ? pixel : MACULA_NO_PIXEL;
+    if (slot == 0u) {
+        *ray_count = (uint)get_global_size(0);
+        *total += width * height;
+    }
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define MACULA_LIB_PACKET_STREAM_H
 
 #include "lib/packet_traverse.h"
+#include "lib/wide_push.h"
 
 #define MACULA_PACKETS (MACULA_RAYS_PER_ITEM / 16)
 
@@ -16,50 +17,31 @@ typedef struct PacketStream {
     uint wide;    /* packets whose frustum is a loose bound: their lanes are tested at every node */
 } PacketStream;
 
-/* A child to visit is child slot % 8 of node slot / 8. */
-typedef struct PacketEntry {
-    uint slot;
-    uint packets;
-} PacketEntry;
-
 /* Each level leaves at most seven siblings behind; a push writes all eight children. */
 #define MACULA_PACKET_STACK (MACULA_WIDE_STACK + 8)
 
-static inline uint first_bit(uint mask) {
-    return (uint)popcount(~mask & (mask - 1u));
-}
-
-static inline void put_packets(PacketEntry* stack, int place, uint slot, int packets) {
-    stack[place].slot = slot;
-    stack[place].packets = (uint)packets;
-}
-
-/* Puts the children that are entered on a stack of `depth` entries, the nearest on top, without a
- * branch that waits for the tests: each at the number of those that come after it, so that those
- * which no packet enters end up above the top. Returns how many entries there are now. */
-static inline uint push_packets(PacketEntry* stack, uint depth, uint index, int8 found,
+/* Puts the children that are entered on the stack, the nearest on top: child `slot % 8` of node
+ * `slot / 8`. */
+static inline uint push_packets(MaskedEntry* stack, uint depth, uint index, int8 found,
                                 float8 nearest) {
-    const int8 key = (found != 0 ? as_int8(nearest) & ~7 : (int8)(-8)) | MACULA_LANES8;
-    const int8 place = -(((int8)(key.s0) > key) + ((int8)(key.s1) > key) + ((int8)(key.s2) > key) +
-                         ((int8)(key.s3) > key) + ((int8)(key.s4) > key) + ((int8)(key.s5) > key) +
-                         ((int8)(key.s6) > key) + ((int8)(key.s7) > key));
     const uint slot = index * 8u;
+    const int8 place = push_places8(child_keys8(found, as_int8(nearest) & ~7));
     stack += depth;
-    put_packets(stack, place.s0, slot, found.s0);
-    put_packets(stack, place.s1, slot + 1u, found.s1);
-    put_packets(stack, place.s2, slot + 2u, found.s2);
-    put_packets(stack, place.s3, slot + 3u, found.s3);
-    put_packets(stack, place.s4, slot + 4u, found.s4);
-    put_packets(stack, place.s5, slot + 5u, found.s5);
-    put_packets(stack, place.s6, slot + 6u, found.s6);
-    put_packets(stack, place.s7, slot + 7u, found.s7);
-    return depth + ((uint)popcount(lane_mask8(found != 0)) >> 3);
+    put_entry(stack, place.s0, slot, found.s0);
+    put_entry(stack, place.s1, slot + 1u, found.s1);
+    put_entry(stack, place.s2, slot + 2u, found.s2);
+    put_entry(stack, place.s3, slot + 3u, found.s3);
+    put_entry(stack, place.s4, slot + 4u, found.s4);
+    put_entry(stack, place.s5, slot + 5u, found.s5);
+    put_entry(stack, place.s6, slot + 6u, found.s6);
+    put_entry(stack, place.s7, slot + 7u, found.s7);
+    return depth + entered_children8(found);
 }
 
 /* Tests the packets' frusta against a node's children and puts those that are entered on the stack
  * of `depth` entries; returns how many there are now. */
 static inline uint visit_node(const TraceScene* scene, const PacketStream* stream, uint index,
-                              uint packets, uint octant, bool mixed, PacketEntry* stack,
+                              uint packets, uint octant, bool mixed, MaskedEntry* stack,
                               uint depth) {
     global const Wide8Node* node = (global const Wide8Node*)scene->nodes + index;
     const WidePlanes planes = load_planes(node, octant);
@@ -75,7 +57,7 @@ static inline uint visit_node(const TraceScene* scene, const PacketStream* strea
     } while (packets != 0u);
     const uint end = push_packets(stack, depth, index, found, nearest);
     for (; depth < end; ++depth)
-        fetch_child_single(scene, node->child[stack[depth].slot & 7u]);
+        fetch_child_single(scene, node->child[stack[depth].child & 7u]);
     return end;
 }
 
@@ -108,13 +90,13 @@ static inline void test_leaf_of_packets(const TraceScene* scene, const PacketIns
  * tests: a mask of them would make every step wait for the hits of the last one. */
 static inline uint next_node(const TraceScene* scene, const PacketInstance* instance,
                              PacketStream* stream, uint octant, bool mixed,
-                             const PacketEntry* stack, uint* depth, uint* index) {
+                             const MaskedEntry* stack, uint* depth, uint* index) {
     global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
     while (*depth != 0u) {
         const uint top = --(*depth);
-        const uint packets = stack[top].packets;
-        global const Wide8Node* node = nodes + (stack[top].slot >> 3);
-        const uint i = stack[top].slot & 7u;
+        const uint packets = stack[top].mask;
+        global const Wide8Node* node = nodes + (stack[top].child >> 3);
+        const uint i = stack[top].child & 7u;
         const int child = node->child[i];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;
         const uint left =
@@ -134,7 +116,7 @@ static inline uint next_node(const TraceScene* scene, const PacketInstance* inst
 static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
                                     PacketStream* stream, int root, uint packets, uint octant,
                                     uint frustum_octant, bool mixed) {
-    PacketEntry stack[MACULA_PACKET_STACK];
+    MaskedEntry stack[MACULA_PACKET_STACK];
     uint depth = 0u, index = (uint)root;
     while (packets != 0u) {
         depth = visit_node(scene, stream, index, packets, frustum_octant, mixed, stack, depth);

@@ -5,15 +5,11 @@
 #ifndef MACULA_LIB_WIDE_STREAM_H
 #define MACULA_LIB_WIDE_STREAM_H
 
+#include "lib/wide_push.h"
 #include "lib/wide_stream_leaf.h"
 
 /* Each level leaves at most seven siblings behind; a push writes all eight children. */
 #define MACULA_STREAM_STACK (7 * MACULA_MAX_DEPTH + 16)
-
-typedef struct StreamEntry {
-    int child;
-    uint rays;
-} StreamEntry;
 
 /* Far planes are moved away by more than what box_interval adds to far distances, so that rays need
  * only one offset an axis (docs/arithmetic.md). */
@@ -71,33 +67,23 @@ static inline StreamChildren enter_children8(global const Wide8Node* node, const
 #else
     const int8 key = as_int8(nearest) & ~7;
 #endif
-    found.key = (found.rays != 0 ? key : (int8)(-8)) | MACULA_LANES8;
+    found.key = child_keys8(found.rays, key);
     return found;
 }
 
-static inline void put_child(StreamEntry* stack, int place, int child, int rays) {
-    stack[place].child = child;
-    stack[place].rays = (uint)rays;
-}
-
-/* Puts the children on the stack, the first one on top: each at the number of those that come after
- * it, so that those which no ray enters end up above the top. */
-static inline uint push_children8(global const Wide8Node* node, const StreamChildren* found,
-                                  StreamEntry* stack, uint depth) {
-    const int8 key = found->key;
-    const int8 place = -(((int8)(key.s0) > key) + ((int8)(key.s1) > key) + ((int8)(key.s2) > key) +
-                         ((int8)(key.s3) > key) + ((int8)(key.s4) > key) + ((int8)(key.s5) > key) +
-                         ((int8)(key.s6) > key) + ((int8)(key.s7) > key));
+static inline uint push_rays(MaskedEntry* stack, uint depth, global const Wide8Node* node,
+                             const StreamChildren* found) {
+    const int8 place = push_places8(found->key);
     stack += depth;
-    put_child(stack, place.s0, node->child[0], found->rays.s0);
-    put_child(stack, place.s1, node->child[1], found->rays.s1);
-    put_child(stack, place.s2, node->child[2], found->rays.s2);
-    put_child(stack, place.s3, node->child[3], found->rays.s3);
-    put_child(stack, place.s4, node->child[4], found->rays.s4);
-    put_child(stack, place.s5, node->child[5], found->rays.s5);
-    put_child(stack, place.s6, node->child[6], found->rays.s6);
-    put_child(stack, place.s7, node->child[7], found->rays.s7);
-    return depth + ((uint)popcount(lane_mask8(found->rays != 0)) >> 3);
+    put_entry(stack, place.s0, (uint)node->child[0], found->rays.s0);
+    put_entry(stack, place.s1, (uint)node->child[1], found->rays.s1);
+    put_entry(stack, place.s2, (uint)node->child[2], found->rays.s2);
+    put_entry(stack, place.s3, (uint)node->child[3], found->rays.s3);
+    put_entry(stack, place.s4, (uint)node->child[4], found->rays.s4);
+    put_entry(stack, place.s5, (uint)node->child[5], found->rays.s5);
+    put_entry(stack, place.s6, (uint)node->child[6], found->rays.s6);
+    put_entry(stack, place.s7, (uint)node->child[7], found->rays.s7);
+    return depth + entered_children8(found->rays);
 }
 
 static inline void fetch_child(const TraceScene* scene, int child) {
@@ -117,14 +103,14 @@ static inline void fetch_child(const TraceScene* scene, int child) {
 #define MACULA_STREAM_CHUNKS 2u
 
 typedef struct StreamWalk {
-    StreamEntry stack[MACULA_STREAM_STACK];
+    MaskedEntry stack[MACULA_STREAM_STACK];
     uint depth;
     uint answered; /* rays whose query is answered */
 } StreamWalk;
 
 static inline void start_walk(StreamWalk* walk, int root, uint rays) {
-    walk->stack[0].child = root;
-    walk->stack[0].rays = rays;
+    walk->stack[0].child = (uint)root;
+    walk->stack[0].mask = rays;
     walk->depth = rays != 0u ? 1u : 0u;
     walk->answered = 0u;
 }
@@ -132,20 +118,21 @@ static inline void start_walk(StreamWalk* walk, int root, uint rays) {
 /* Visits the node or leaf on top of the stack. */
 static inline void step_walk(const TraceScene* scene, Stream* s, const StreamClass* c,
                              StreamWalk* walk) {
-    const StreamEntry entry = walk->stack[--walk->depth];
-    const uint left = entry.rays & ~walk->answered;
+    const MaskedEntry entry = walk->stack[--walk->depth];
+    const uint left = entry.mask & ~walk->answered;
+    const int child = (int)entry.child;
     if (left == 0u)
         return;
-    if (entry.child < 0) {
-        walk->answered |= test_leaf_of_stream(scene, s, c, entry.child, left);
+    if (child < 0) {
+        walk->answered |= test_leaf_of_stream(scene, s, c, child, left);
         return;
     }
-    global const Wide8Node* node = (global const Wide8Node*)scene->nodes + entry.child;
+    global const Wide8Node* node = (global const Wide8Node*)scene->nodes + child;
     const StreamChildren found = enter_children8(node, s, c, left);
     const uint before = walk->depth;
-    walk->depth = push_children8(node, &found, walk->stack, before);
+    walk->depth = push_rays(walk->stack, before, node, &found);
     for (uint i = before; i < walk->depth; ++i)
-        fetch_child(scene, walk->stack[i].child);
+        fetch_child(scene, (int)walk->stack[i].child);
 }
 
 /* `s` and `walk`: one for each chunk. */

@@ -6,6 +6,7 @@
 #include "lib/ray16.h"
 #include "lib/traverse_block8.h"
 #include "lib/traverse_query.h"
+#include "lib/wide_push.h"
 
 #define MACULA_STREAM_LANES 32
 
@@ -44,10 +45,6 @@ static inline StreamClass stream_class(uint index, float reach) {
     c.ky = c.kx == 2u ? 0u : c.kx + 1u;
     c.margin = 4.0f * MACULA_RAY_MARGIN * reach;
     return c;
-}
-
-static inline uint first_bit(uint mask) {
-    return (uint)popcount(~mask & (mask - 1u));
 }
 
 /* What the edge test of a block leaves for the rest of the test. */
@@ -107,26 +104,9 @@ static inline BlockHits hit_block(const Stream* s, const StreamClass* c, uint k,
     return h;
 }
 
-static inline void axis_bounds8(global const TriangleBlock8* block, uint axis, float8* lo,
-                                float8* hi) {
-    const float8 a = vload8(0, block->v[0][axis]);
-    const float8 b = vload8(0, block->v[1][axis]);
-    const float8 c = vload8(0, block->v[2][axis]);
-    *lo = m_min8(m_min8(a, b), c);
-    *hi = m_max8(m_max8(a, b), c);
-}
-
-/* Of the lanes `hit`, those whose t passes the triangle's own box and then ends before the ray: the
- * triangle_margin of lib/triangle.h and the box_interval of lib/ray.h. */
+/* Of the lanes `hit`, those whose t passes the triangle's own box and then ends before the ray. */
 static inline int8 clamp_to_triangles8(const Stream* s, const StreamClass* c, uint k,
                                        global const TriangleBlock8* block, int8 hit, float8* t) {
-    float8 lx, ly, lz, hx, hy, hz;
-    axis_bounds8(block, 0u, &lx, &hx);
-    axis_bounds8(block, 1u, &ly, &hy);
-    axis_bounds8(block, 2u, &lz, &hz);
-    const float8 size = m_max8(m_max8(m_max8(-lx, hx), m_max8(-ly, hy)),
-                               m_max8(m_max8(-lz, hz), (float8)(0x1p-19f)));
-    const float8 margin = MACULA_TRIANGLE_MARGIN * size;
     TraceRay r;
     r.ox = s->o[0][k];
     r.oy = s->o[1][k];
@@ -136,17 +116,9 @@ static inline int8 clamp_to_triangles8(const Stream* s, const StreamClass* c, ui
     r.rz = s->r[2][k];
     set_offsets(&r);
     r.t_min = s->t_min[k];
-    const bool sx = (c->octant & 1u) != 0u, sy = (c->octant & 2u) != 0u,
-               sz = (c->octant & 4u) != 0u;
-    lx -= margin;
-    ly -= margin;
-    lz -= margin;
-    hx += margin;
-    hy += margin;
-    hz += margin;
+    r.octant = c->octant;
     float8 near, far;
-    box_interval8(&r, sx ? hx : lx, sy ? hy : ly, sz ? hz : lz, sx ? lx : hx, sy ? ly : hy,
-                  sz ? lz : hz, &near, &far);
+    triangle_intervals8(&r, block, &near, &far);
     hit &= near <= far;
     *t = m_min8(m_max8(*t, near), far);
     return hit & (*t <= (float8)(s->t_max[k]));

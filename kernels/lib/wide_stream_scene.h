@@ -124,28 +124,26 @@ static inline void enter_binary_of_rays(global const BinaryNode* node, const Str
 }
 
 static inline void trace_rays(const TraceScene* scene, StreamChunk* chunk, uint rays) {
-    StreamEntry stack[MACULA_MAX_DEPTH + 2];
+    MaskedEntry stack[MACULA_MAX_DEPTH + 2];
     uint depth = 1u, answered = 0u;
-    stack[0].child = 0;
-    stack[0].rays = rays;
+    put_entry(stack, 0, 0u, (int)rays);
     while (depth != 0u) {
-        const StreamEntry entry = stack[--depth];
-        const uint left = entry.rays & ~answered;
+        const MaskedEntry entry = stack[--depth];
+        const int child = (int)entry.child;
+        const uint left = entry.mask & ~answered;
         if (left == 0u)
             continue;
-        if (entry.child < 0) {
-            answered |= traverse_instance_of_rays(
-                scene, chunk, (uint)~entry.child >> MACULA_LEAF_COUNT_BITS, left);
+        if (child < 0) {
+            answered |= traverse_instance_of_rays(scene, chunk,
+                                                  (uint)~child >> MACULA_LEAF_COUNT_BITS, left);
             continue;
         }
-        global const BinaryNode* node = scene->upper_nodes + entry.child;
+        global const BinaryNode* node = scene->upper_nodes + child;
         uint of_child[2];
         enter_binary_of_rays(node, chunk, left, of_child);
         for (uint i = 0u; i < 2u; ++i)
-            if (of_child[i] != 0u) {
-                stack[depth].child = node->child[i];
-                stack[depth++].rays = of_child[i];
-            }
+            if (of_child[i] != 0u)
+                put_entry(stack, (int)depth++, (uint)node->child[i], (int)of_child[i]);
     }
 }
 #endif

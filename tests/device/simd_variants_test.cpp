@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bvh/ray_blocks.hpp"
 #include "host/cl/device.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/kernel/library.hpp"
@@ -188,27 +189,10 @@ std::vector<Ray> with_inactive(std::vector<Ray> rays) {
     return rays;
 }
 
-std::vector<shared::RayBlock> blocks_of(const std::vector<Ray>& rays, std::size_t blocks) {
+std::vector<shared::RayBlock> full_blocks_of(std::vector<Ray> rays, std::size_t blocks) {
     // Lanes beyond the count hold rays that would hit, and must not be traced.
-    shared::RayBlock filler{};
-    for (int lane = 0; lane < 16; ++lane) {
-        filler.direction_x[lane] = 1.0f;
-        filler.t_max[lane] = kFar;
-    }
-    std::vector<shared::RayBlock> out(blocks, filler);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        shared::RayBlock& b = out[i / 16];
-        const std::size_t lane = i % 16;
-        b.origin_x[lane] = rays[i].origin[0];
-        b.origin_y[lane] = rays[i].origin[1];
-        b.origin_z[lane] = rays[i].origin[2];
-        b.t_min[lane] = rays[i].t_min;
-        b.direction_x[lane] = rays[i].direction[0];
-        b.direction_y[lane] = rays[i].direction[1];
-        b.direction_z[lane] = rays[i].direction[2];
-        b.t_max[lane] = rays[i].t_max;
-    }
-    return out;
+    rays.resize(blocks * 16, Ray{{}, {1, 0, 0}, 0.0f, kFar});
+    return bvh::blocks_of(rays, rays.size());
 }
 
 std::string text(float t, float u, float v, std::uint32_t triangle) {
@@ -234,7 +218,7 @@ class SimdVariants : public testing::TestWithParam<const char*> {
         const std::size_t block_count = (rays.size() + 15) / 16 + 1;
         const auto capacity = static_cast<std::uint32_t>(block_count * 16);
         const auto count = static_cast<std::uint32_t>(rays.size());
-        const std::vector<shared::RayBlock> host_blocks = blocks_of(rays, block_count);
+        const std::vector<shared::RayBlock> host_blocks = full_blocks_of(rays, block_count);
         const auto blocks = device_.upload(std::span(host_blocks), "rays");
         const auto counter = device_.upload(std::span(&count, 1), "ray count");
         auto hits = device_.allocate_array<shared::HitBlock>(block_count, "hits");

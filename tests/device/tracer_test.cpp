@@ -29,7 +29,7 @@ class TracerTest : public testing::Test {
 
     TracerTest() : geometry_(device_, test::soup_scene()) {
         rays_ = device_.upload(
-            std::span<const shared::RayBlock>(test::blocks_of(
+            std::span<const shared::RayBlock>(bvh::blocks_of(
                 test::coherent_rays(kCount, {0.3f, 0.4f, -3.0f}, {0, 0, 0}, 0.8f), kCount)),
             "rays");
         count_ = device_.upload(std::span(&kCount, 1), "count");

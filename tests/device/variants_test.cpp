@@ -25,7 +25,7 @@ class Variants : public testing::TestWithParam<std::string> {
         stage::VariantTable table;
         table.fill({&kernel::find_variant(GetParam()), {}});
         stage::Tracer tracer(device_, library_, geometry, table);
-        const auto blocks = test::blocks_of(rays, capacity);
+        const auto blocks = bvh::blocks_of(rays, capacity);
         const compute::Buffer ray_buffer = device_.upload(std::span(blocks), "rays");
         const compute::Buffer counter =
             device_.upload(std::span<const std::uint32_t>(&count, 1), "ray count");

@@ -34,5 +34,6 @@ while IFS= read -r line; do
     tail -n 5 ../log
   fi
 done < <(commands)
-echo "documents: $ran commands ran, $skipped skipped, $failed failed"
+((skipped == 0)) || echo "documents: $skipped commands skipped (they need ../shared, which is not here)"
+echo "documents: $ran commands ran, $failed failed"
 ((failed == 0 && ran > 0))

@@ -1,4 +1,4 @@
-// Rays for the scenes of trace_scenes.hpp, and the form in which the device takes them.
+// Rays for the scenes of trace_scenes.hpp.
 #pragma once
 
 #include <bit>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "bvh/ray_blocks.hpp"
 #include "bvh/reference.hpp"
-#include "shared/ray.h"
 #include "tests/support/trace_scenes.hpp"
 
 namespace macula::test {
@@ -107,25 +107,6 @@ inline std::vector<bvh::Ray> odd_rays() {
             rays.push_back(ray(o, d + random.point(-0.2f, 0.2f)));
     }
     return rays;
-}
-
-inline std::vector<shared::RayBlock> blocks_of(const std::vector<bvh::Ray>& rays,
-                                               std::uint32_t capacity) {
-    std::vector<shared::RayBlock> blocks((capacity + 15) / 16);
-    for (std::size_t i = 0; i < blocks.size() * 16; ++i) {
-        shared::RayBlock& block = blocks[i / 16];
-        const std::size_t lane = i % 16;
-        const bvh::Ray r = i < rays.size() ? rays[i] : bvh::Ray{{}, {0, 0, 1}, 1.0f, 0.0f};
-        block.origin_x[lane] = r.origin[0];
-        block.origin_y[lane] = r.origin[1];
-        block.origin_z[lane] = r.origin[2];
-        block.direction_x[lane] = r.direction[0];
-        block.direction_y[lane] = r.direction[1];
-        block.direction_z[lane] = r.direction[2];
-        block.t_min[lane] = r.t_min;
-        block.t_max[lane] = r.t_max;
-    }
-    return blocks;
 }
 
 } // namespace macula::test

@@ -1,10 +1,15 @@
 // Every scene of ../shared/scenes against what its README says of it.
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <ostream>
+#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "scenes/load.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace macula::scene {
 namespace {
@@ -16,6 +21,10 @@ struct Expected {
     glm::vec3 lo, hi;
     float tolerance; // the bounds are given rounded
 };
+
+void PrintTo(const Expected& scene, std::ostream* out) {
+    *out << scene.file;
+}
 
 // Textures are those that Phong materials use: no occlusion or metallic-roughness maps. The bounds
 // of the balloon follow from its two node matrices.
@@ -165,6 +174,27 @@ const Expected kScenes[] = {
     {"gltf_small/living_room_flat.glb", 5088, 7, 0, {-5, -1.5f, -2.5f}, {5, 4, 12}, 0.001f},
 };
 
+// A sanitizer build loads no larger scenes and none with textures: the small ones, and the tests of
+// images, run the same code.
+constexpr std::uint64_t kMostSanitizedTriangles = 8000;
+
+std::filesystem::path path_of(const std::string& file) {
+    return std::filesystem::path(MACULA_SHARED_DIR) / "scenes" / file;
+}
+
+// Why `file`, one of kScenes, can't be loaded here; empty where it can.
+std::string reason_to_skip(const std::string& file) {
+    if (!std::filesystem::exists(path_of(file)))
+        return "no " + path_of(file).string();
+    const auto scene = std::find_if(std::begin(kScenes), std::end(kScenes),
+                                    [&](const Expected& each) { return each.file == file; });
+    if (scene == std::end(kScenes))
+        throw std::invalid_argument(file + " is not one of kScenes");
+    if (test::kSanitized && (scene->triangles > kMostSanitizedTriangles || scene->textures > 0))
+        return test::too_long_sanitized(file);
+    return {};
+}
+
 class SharedScene : public testing::TestWithParam<Expected> {};
 
 void expect_near(const glm::vec3& actual, const glm::vec3& expected, float tolerance) {
@@ -174,11 +204,9 @@ void expect_near(const glm::vec3& actual, const glm::vec3& expected, float toler
 
 TEST_P(SharedScene, HasWhatItsReadmeSays) {
     const Expected& expected = GetParam();
-    const std::filesystem::path file =
-        std::filesystem::path(MACULA_SHARED_DIR) / "scenes" / expected.file;
-    if (!std::filesystem::exists(file))
-        GTEST_SKIP() << "no " << file;
-    const Scene scene = load(file.string());
+    if (const std::string reason = reason_to_skip(expected.file); !reason.empty())
+        GTEST_SKIP() << reason;
+    const Scene scene = load(path_of(expected.file).string());
     EXPECT_EQ(scene.triangle_count(), expected.triangles);
     EXPECT_EQ(scene.materials.size(), expected.materials);
     EXPECT_EQ(scene.textures.size(), expected.textures);
@@ -198,11 +226,7 @@ INSTANTIATE_TEST_SUITE_P(All, SharedScene, testing::ValuesIn(kScenes), [](const 
 });
 
 Scene load_shared(const char* file) {
-    return load((std::filesystem::path(MACULA_SHARED_DIR) / "scenes" / file).string());
-}
-
-bool have_shared() {
-    return std::filesystem::exists(std::filesystem::path(MACULA_SHARED_DIR) / "scenes");
+    return load(path_of(file).string());
 }
 
 const Material* find(const Scene& scene, const std::string& name) {
@@ -220,8 +244,8 @@ bool warns(const Scene& scene, const std::string& part) {
 }
 
 TEST(SharedSceneTraps, CrytekSponzaHasThreeMaskedMaterialsAndCollapsedTriangles) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("sponza_crytek/sponza.obj"); !reason.empty())
+        GTEST_SKIP() << reason;
     const Scene scene = load_shared("sponza_crytek/sponza.obj");
     std::size_t masked = 0;
     for (const Material& material : scene.materials)
@@ -244,8 +268,8 @@ TEST(SharedSceneTraps, CrytekSponzaHasThreeMaskedMaterialsAndCollapsedTriangles)
 }
 
 TEST(SharedSceneTraps, LivingRoomBlendsOneMaterialAndGlowsWithAnother) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("living_room/living_room.obj"); !reason.empty())
+        GTEST_SKIP() << reason;
     const Scene scene = load_shared("living_room/living_room.obj");
     std::size_t blended = 0;
     for (const Material& material : scene.materials)
@@ -255,8 +279,8 @@ TEST(SharedSceneTraps, LivingRoomBlendsOneMaterialAndGlowsWithAnother) {
 }
 
 TEST(SharedSceneTraps, SibenikHasNoNormalsBumpMapsAndGlass) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("sibenik/sibenik.obj"); !reason.empty())
+        GTEST_SKIP() << reason;
     const Scene scene = load_shared("sibenik/sibenik.obj");
     EXPECT_TRUE(scene.meshes[0].normals.empty());
     EXPECT_FLOAT_EQ(find(scene, "staklo")->opacity, 0.1f);
@@ -266,14 +290,16 @@ TEST(SharedSceneTraps, SibenikHasNoNormalsBumpMapsAndGlass) {
 }
 
 TEST(SharedSceneTraps, GlossyCornellBoxLacksItsLightMaterial) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("cornell_box/CornellBox-Glossy.obj");
+        !reason.empty())
+        GTEST_SKIP() << reason;
     EXPECT_TRUE(warns(load_shared("cornell_box/CornellBox-Glossy.obj"), "'light' is not defined"));
 }
 
 TEST(SharedSceneTraps, OriginalCornellBoxIsLitByItsCeilingLamp) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("cornell_box/CornellBox-Original.obj");
+        !reason.empty())
+        GTEST_SKIP() << reason;
     const Scene scene = load_shared("cornell_box/CornellBox-Original.obj");
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].kind, LightKind::rectangle);
@@ -282,8 +308,9 @@ TEST(SharedSceneTraps, OriginalCornellBoxIsLitByItsCeilingLamp) {
 }
 
 TEST(SharedSceneTraps, NeedlesOfThePineAreMasked) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("gltf_small/smallpine/scene.gltf");
+        !reason.empty())
+        GTEST_SKIP() << reason;
     const Material* needles = nullptr;
     const Scene scene = load_shared("gltf_small/smallpine/scene.gltf");
     for (const Material& material : scene.materials)
@@ -294,8 +321,9 @@ TEST(SharedSceneTraps, NeedlesOfThePineAreMasked) {
 }
 
 TEST(SharedSceneTraps, MaterialsWhoseTexturesBistroLacksHaveNothingToMask) {
-    if (!have_shared())
-        GTEST_SKIP() << "no shared scenes";
+    if (const std::string reason = reason_to_skip("bistro_plaza/bistro_plaza.gltf");
+        !reason.empty())
+        GTEST_SKIP() << reason;
     const Scene scene = load_shared("bistro_plaza/bistro_plaza.gltf");
     for (const char* name : {"Forge_Metal", "Curtains", "Foliage_Hedges", "HangingLight"})
         for (const Material& material : scene.materials)
