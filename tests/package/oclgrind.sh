@@ -80,7 +80,6 @@ for check in "$races" "$uninitialised"; do
   for lights in point area ao; do
     under "cornell, $lights lights" "$check" "${frame[@]}" --lights "$lights"
   done
-  under 'a lens' "$check" "${frame[@]}" --display "$scratch/lens.toml" --distort
   under 'highlights and every image' "$check" render whitted "${picture[@]}" --aov "$aovs"
   while read -r variant; do
     # Oclgrind 21.10 itself crashes in its check for uninitialised reads of these two.
@@ -95,6 +94,8 @@ while read -r method _; do
   under "method $method" "$races" render whitted --size 24x24 --out pictures \
     --frames 0:2 --method "$method"
 done <<<"$methods"
+# Not for uninitialised reads: with that check, Oclgrind 21.10 crashes in the kernel `prewarp`.
+under 'a lens' "$races" "${frame[@]}" --display "$scratch/lens.toml" --distort
 under 'textures' "$races" render tunnel_maps "${picture[@]}" --lights ao
 
 while ((at_work > 0)); do
