@@ -5,6 +5,7 @@
 #include "cache/light_value.h"
 #include "lib/acuity.h"
 #include "lib/camera.h"
+#include "lib/random_vector.h"
 #include "lib/reprojection.h"
 #include "lib/simd.h"
 
@@ -74,21 +75,12 @@ static inline int texel_of(const Search* s, float depth, int x, int y) {
                             s->frame->height);
 }
 
-static inline uint16 random_mix16(uint16 x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    x ^= x >> 16;
-    return x;
-}
-
 /* random_unit() of lib/random.h for eight tries from `first` on, in two dimensions. */
 static inline float16 random_places(uint key, uint first) {
     const uint16 sample = first + (as_uint16(MACULA_LANES16) & 7u);
     const uint16 dimension = MACULA_DIMENSION_LIGHT_FILTER + (as_uint16(MACULA_LANES16) >> 3);
     const uint16 bits =
-        random_mix16(key ^ random_mix16(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
+        random_mix(key ^ random_mix(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
     return convert_float16(bits >> 8) * 0x1p-24f;
 }
 
