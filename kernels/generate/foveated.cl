@@ -52,8 +52,8 @@ static inline Choice choose_by_gaze(global const FrameParams* frame,
     const float16 along = fma((float16)(right), sx, fma((float16)(up), sy, (float16)(forward)));
     const float16 cosine = along * m_inverse_sqrt(length_squared);
     const float r0 = weier->r0 * frame->gaze_widening, r1 = weier->r1 * frame->gaze_widening;
-    const float16 xi = random_unit(random_key(y * width + x, frame->frame, frame->seed), 0u,
-                                   MACULA_DIMENSION_FOVEA);
+    const float16 xi = random_unit(random_key(y * width + x, frame->frame, frame->seed),
+                                   (uint16)(0u), MACULA_DIMENSION_FOVEA);
 
     Choice choice;
     choice.fovea = cosine >= cosine_of_eccentricity(r0);

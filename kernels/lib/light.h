@@ -81,7 +81,7 @@ MACULA_ALWAYS_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, Real3 
  * of the pixel. */
 MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* strata,
                                        Real3 from, Uint key, uint sample, uint dimension,
-                                       uint index, LightSample* out) {
+                                       Uint index, LightSample* out) {
     out->direction = splat_vector(make3(0.0f, 0.0f, 1.0f));
     out->unit_direction = out->direction;
     out->t_max = splat(-1.0f);

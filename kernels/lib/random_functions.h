@@ -18,12 +18,12 @@ MACULA_OVERLOADED UINT random_key(UINT pixel, uint frame, uint seed) {
     return random_mix(pixel + (UINT)random_mix(frame + random_mix(seed ^ 0x9e3779b9u)));
 }
 
-MACULA_OVERLOADED UINT random_bits(UINT key, uint sample, uint dimension) {
-    return random_mix(key ^ (UINT)random_mix(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
+MACULA_OVERLOADED UINT random_bits(UINT key, UINT sample, uint dimension) {
+    return random_mix(key ^ random_mix(sample * 0x9e3779b1u + dimension * 0x85ebca77u));
 }
 
 /* Uniform in [0, 1), a multiple of 2^-24. */
-MACULA_OVERLOADED REAL random_unit(UINT key, uint sample, uint dimension) {
+MACULA_OVERLOADED REAL random_unit(UINT key, UINT sample, uint dimension) {
     return MACULA_OF_WIDTH(convert_float)(random_bits(key, sample, dimension) >> 8) * 0x1p-24f;
 }
 

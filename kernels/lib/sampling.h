@@ -32,14 +32,14 @@ MACULA_ALWAYS_INLINE Strata make_strata(uint columns, uint count) {
 /* A point of [0, 1)^2 in cell `index`, below 2^20, from the two halves of one hash. All pixels of a
  * packet draw from the same cell, which keeps their rays coherent. `sample` counts the draws of one
  * pixel over all of its samples. */
-MACULA_ALWAYS_INLINE void stratified_point(Uint key, uint sample, uint dimension, uint index,
+MACULA_ALWAYS_INLINE void stratified_point(Uint key, Uint sample, uint dimension, Uint index,
                                            const Strata* strata, Real* u, Real* v) {
     const Uint bits = random_bits(key, sample, dimension);
-    const uint row = (uint)(((float)index + 0.5f) * strata->width);
-    const uint column = index - row * strata->columns;
+    const Uint row = to_uint((uint_to_real(index) + 0.5f) * strata->width);
+    const Uint column = index - row * strata->columns;
     const Real step = splat(0x1p-16f);
-    *u = fma(uint_to_real(bits >> 16), step, splat((float)column)) * strata->width;
-    *v = fma(uint_to_real(bits & 0xffffu), step, splat((float)row)) * strata->height;
+    *u = fma(uint_to_real(bits >> 16), step, uint_to_real(column)) * strata->width;
+    *v = fma(uint_to_real(bits & 0xffffu), step, uint_to_real(row)) * strata->height;
 }
 
 /* An orthonormal basis about n (Duff et al. 2017). */

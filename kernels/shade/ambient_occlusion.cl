@@ -45,8 +45,8 @@ kernel void generate_ambient_occlusion_rays(
     const Real t_max = e.used ? splat(frame->ambient_occlusion_radius) : splat(-1.0f);
     for (uint index = 0u; index < samples; ++index) {
         Real u, v;
-        stratified_point(key, sample * samples + index, MACULA_DIMENSION_AMBIENT_OCCLUSION, index,
-                         &strata, &u, &v);
+        stratified_point(key, splat_uint(sample * samples + index),
+                         MACULA_DIMENSION_AMBIENT_OCCLUSION, splat_uint(index), &strata, &u, &v);
         const Real3 direction = cosine_direction(&basis, u, v);
         /* A bent shading normal sends some rays into the surface: they are mirrored out of it, or
          * they would darken every smooth silhouette. */

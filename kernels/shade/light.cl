@@ -30,8 +30,7 @@ kernel void flag_lit_surfaces(global const uint* restrict ray_count,
     store_uints(flags, first, lit ? splat_uint(1u) : splat_uint(0u));
 }
 
-/* One work-item for MACULA_LANES entries of the batch; it makes the rays of all of the light's
- * samples. */
+/* One work-item for MACULA_LANES rays of the batch, entry by entry. */
 kernel void generate_shadow_rays(
     global const FrameParams* restrict frame, uint sample, global const Light* restrict lights,
     uint light, global const uint* restrict queue, global const uint* restrict queue_count,
@@ -40,28 +39,26 @@ kernel void generate_shadow_rays(
     global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint count = batch_count(*queue_count, first);
     const uint samples = lights[light].samples;
-    const Strata strata = make_strata(lights[light].columns, samples);
+    const uint capacity = (uint)get_global_size(0) * MACULA_LANES / samples;
+    const uint total = batch_rays(count, samples, capacity);
     if (get_global_id(0) == 0u) {
-        const uint capacity = (uint)get_global_size(0) * MACULA_LANES;
-        *ray_count = batch_rays(count, samples, capacity);
+        *ray_count = total;
         ray_totals[ray_class] += (count < capacity ? count : capacity) * samples;
     }
-    if (first_of_item() >= padded_count(count))
+    if (first_of_item() >= total)
         return;
-    const Entries e = load_entries(queue, first, count);
-    const Lane4 surface = gather4(position, e.slot);
-    const Real3 normal = gather4(geometric_normal, e.slot).xyz;
+    const EntryRays r = load_entry_rays(queue, first, count, samples);
+    const Lane4 surface = gather4(position, r.slot);
+    const Real3 normal = gather4(geometric_normal, r.slot).xyz;
     const Real3 origin = scale_add3(normal, surface.w, surface.xyz);
-    const Uint key = random_key(MACULA_GATHER(uint, pixels, e.slot, ), frame->frame, frame->seed);
-    for (uint index = 0u; index < samples; ++index) {
-        LightSample s;
-        sample_light(lights + light, &strata, surface.xyz, key, sample,
-                     MACULA_DIMENSION_LIGHTS + light, index, &s);
-        const Mask above =
-            e.used & (s.weight > splat(0.0f)) & (dot3(s.direction, normal) > splat(0.0f));
-        store_rays(rays, queued_ray(e.first, index, samples), origin, s.direction,
-                   above ? s.t_max : splat(-1.0f));
-    }
+    const Uint key = random_key(MACULA_GATHER(uint, pixels, r.slot, ), frame->frame, frame->seed);
+    const Strata strata = make_strata(lights[light].columns, samples);
+    LightSample s;
+    sample_light(lights + light, &strata, surface.xyz, key, sample, MACULA_DIMENSION_LIGHTS + light,
+                 r.sample, &s);
+    const Mask above =
+        r.used & (s.weight > splat(0.0f)) & (dot3(s.direction, normal) > splat(0.0f));
+    store_rays(rays, r.first, origin, s.direction, above ? s.t_max : splat(-1.0f));
 }
 
 /* What one light gives to a point: the sums over its samples. */
@@ -97,13 +94,13 @@ kernel void add_light(global const FrameParams* restrict frame, uint sample,
     const Real zero = splat(0.0f);
     Received sum = {zero, zero};
     for (uint index = 0u; index < samples; ++index) {
-        const Mask open =
-            e.used & (load_uints(occluded, queued_ray(e.first, index, samples)) == 0u);
+        const Uint ray = lanes_from(e.first) * samples + index;
+        const Mask open = e.used & (MACULA_GATHER(uint, occluded, ray, ) == 0u);
         if (!any_lane(open))
             continue;
         LightSample s;
         sample_light(lights + light, &strata, from, key, sample, MACULA_DIMENSION_LIGHTS + light,
-                     index, &s);
+                     splat_uint(index), &s);
         const Real cosine = dot3(normal, s.unit_direction);
         const Mask lit = open & (s.weight > zero) & (s.t_max > zero) & (cosine > zero) &
                          (dot3(above, s.direction) > zero);

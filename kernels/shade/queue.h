@@ -1,7 +1,10 @@
 /* Queues of secondary rays. A queue lists ray slots in rising order; it is worked off in batches
- * that start at entry `first`. The rays of sixteen neighbouring entries for one sample index make
- * one ray block, and the blocks of all samples of these entries lie together, so that a packet is
- * coherent (same stratum, neighbouring origins) and a stream of rays stays in one neighbourhood. */
+ * that start at entry `first`. A batch has the rays of its entries in one of two orders:
+ *   entry by entry, all rays of a point together: for rays to a light, whose packets are then
+ * narrow also where the points of a foveated list lie apart; sample by sample for sixteen
+ * neighbouring entries, whose rays of one sample make one block: for rays in all directions, of
+ * which those from one stratum are coherent. The blocks of all samples of these entries lie
+ * together. */
 #ifndef MACULA_SHADE_QUEUE_H
 #define MACULA_SHADE_QUEUE_H
 
@@ -30,6 +33,7 @@ MACULA_ALWAYS_INLINE uint batch_rays(uint count, uint samples, uint capacity) {
     return (padded < capacity ? padded : capacity) * samples;
 }
 
+/* Sample by sample. */
 MACULA_ALWAYS_INLINE uint queued_ray(uint entry, uint index, uint samples) {
     const uint block = entry / MACULA_RAY_BLOCK * samples + index;
     return block * MACULA_RAY_BLOCK + entry % MACULA_RAY_BLOCK;
@@ -66,6 +70,31 @@ MACULA_ALWAYS_INLINE Entries load_entries(global const uint* queue, uint first_o
     e.slot = load_uints(queue, first_of_batch + e.first);
     e.slot = e.used ? e.slot : splat_uint(0u);
     return e;
+}
+
+/* The rays of a work-item of a launch that covers a batch entry by entry. */
+typedef struct EntryRays {
+    uint first;  /* ray of the batch */
+    Uint sample; /* of its entry */
+    Mask used;
+    Uint slot; /* 0 where it is not used */
+} EntryRays;
+
+MACULA_ALWAYS_INLINE EntryRays load_entry_rays(global const uint* queue, uint first_of_batch,
+                                               uint count, uint samples) {
+    EntryRays r;
+    r.first = first_of_item();
+    /* Lanes are few rays on from the first one: floats divide such numbers exactly, and faster. */
+    const uint first_entry = r.first / samples;
+    const Uint on = lanes_from(r.first - first_entry * samples);
+    const Uint further = to_uint((uint_to_real(on) + 0.5f) * m_divide(1.0f, (float)samples));
+    const Uint entry = first_entry + further;
+    r.sample = on - further * samples;
+    r.used = entry < count;
+    const Uint at = r.used ? first_of_batch + entry : splat_uint(first_of_batch);
+    const Uint slot = MACULA_GATHER(uint, queue, at, );
+    r.slot = r.used ? slot : splat_uint(0u);
+    return r;
 }
 
 #endif
