@@ -52,7 +52,8 @@ class DirectLight {
                      run["surface position"], run["surface geometric normal"],
                      run.scratch("queued rays"), run.scratch("queued ray count"), kit_.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::shadow))
-                .launch("generate shadow rays", kit_.lane_items(entries * samples), kit_.lane_group());
+                .launch("generate shadow rays", kit_.lane_items(entries * samples),
+                        kit_.lane_group());
             kit_.tracer.any(kernel::RayClass::shadow, run.scratch("queued rays"),
                             run.scratch("queued ray count"), entries * samples,
                             run.scratch("occluded"), "trace shadow rays");

@@ -96,8 +96,8 @@ scan_top(global const uint *values, global const uint *count, uint capacity, uin
         *total = up_to_here;
 }
 
-/* indices[k] = position of the k-th flag that is 1, in order. One work-group a tile, whose offset is
- * known. A loop over the set bits, since CPUs scatter vectors with a few lanes very slowly. */
+/* indices[k] = position of the k-th flag that is 1, in order. One work-group a tile, whose offset
+ * is known. A loop over the set bits, since CPUs scatter vectors with a few lanes very slowly. */
 kernel __attribute__((reqd_work_group_size(MACULA_WORK_GROUP, 1, 1))) void
 compact_tiles(global const uint *flags, global const uint *count, uint capacity,
               global const uint *tile_offsets, global uint *indices) {
