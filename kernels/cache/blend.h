@@ -28,11 +28,11 @@ MACULA_ALWAYS_INLINE void weigh_samples(global const WeierParams* weier, uint no
     const uint16 age = since == 0u ? (uint16)(1u) : since;
     const float16 power = fma(convert_float16(age - 1u), (float16)(weier->log2_k_slope),
                               (float16)(weier->log2_k_min));
-    const float16 k = m_min16(m_exp2_of_sum(m_min16(power, (float16)(0.0f)), (float16)(0.0f)),
-                              (float16)(weier->k_max));
+    const float16 k = m_min(m_exp2_of_sum(m_min(power, (float16)(0.0f)), (float16)(0.0f)),
+                            (float16)(weier->k_max));
     const float16 one = (float16)(1.0f);
     const float16 safe = blended ? rho : one;
-    const float16 alpha = blended ? m_max16(m_divide(one, safe + 1.0f), k) : one;
+    const float16 alpha = blended ? m_max(m_divide(one, safe + 1.0f), k) : one;
     const int16 worth_more = (safe > 0.0f) & (alpha < 1.0f);
     const float16 rest = 1.0f - alpha;
     const float16 part = m_divide(rest * rest, safe > 0.0f ? safe : one);

@@ -91,9 +91,9 @@ MACULA_ALWAYS_INLINE float16 cubic_texels16(global const float* at, uint width, 
         fma(cubic_row16(at, &x), y.first, fma(cubic_row16(at + line, &x), y.second, outer));
     const float16 a = vload16(0, at), b = vload16(0, at + 4);
     const float16 c = vload16(0, at + line), d = vload16(0, at + line + 4);
-    const float16 low = m_min16(m_min16(a, b), m_min16(c, d));
-    const float16 high = m_max16(m_max16(a, b), m_max16(c, d));
-    return m_min16(m_max16(value, low), high);
+    const float16 low = m_min(m_min(a, b), m_min(c, d));
+    const float16 high = m_max(m_max(a, b), m_max(c, d));
+    return m_min(m_max(value, low), high);
 }
 
 MACULA_ALWAYS_INLINE float16 four_texels(global const float4* image, const int* index) {

@@ -63,22 +63,13 @@ MACULA_SHARED_END
 
 #include "lib/random_vector.h"
 #include "lib/simd.h"
+#include "lib/vector16.h"
 
 typedef float16 Real;
 typedef int16 Int;
 typedef uint16 Uint;
 typedef int16 Mask;
-typedef struct Real3 {
-    float16 x, y, z;
-} Real3;
-
-#define MACULA_WIDTH 16
-#define VECTOR3 Real3
-#define VECTOR_MASK int16
-#include "lib/vector_functions.h"
-#undef MACULA_WIDTH
-#undef VECTOR3
-#undef VECTOR_MASK
+typedef Vector16 Real3;
 
 MACULA_INLINE Real splat(float x) {
     return (float16)(x);
@@ -87,7 +78,7 @@ MACULA_INLINE Uint splat_uint(uint x) {
     return (uint16)(x);
 }
 MACULA_ALWAYS_INLINE Real3 splat_vector(float3 v) {
-    return make3(splat(v.x), splat(v.y), splat(v.z));
+    return spread16(v);
 }
 MACULA_ALWAYS_INLINE bool any_lane(Mask mask) {
     return any_lane16(mask);

@@ -208,15 +208,15 @@ static inline void box_interval16(const Packet* p, const float lo[3], const floa
         n[axis] = fma(negative ? above : below, r, p->n[axis]);
         f[axis] = fma(negative ? below : above, r * MACULA_FAR_SCALE, far_offset);
     }
-    *near = m_max16(m_max16(n[0], n[1]), m_max16(n[2], p->t_min));
-    *far = m_min16(m_min16(f[0], f[1]), f[2]);
+    *near = m_max(m_max(n[0], n[1]), m_max(n[2], p->t_min));
+    *far = m_min(m_min(f[0], f[1]), f[2]);
 }
 
 /* The lanes that enter a box no later than their t_max. */
 static inline int16 enter_box16(const Packet* p, const float lo[3], const float hi[3]) {
     float16 near, far;
     box_interval16(p, lo, hi, &near, &far);
-    return near <= m_min16(far, p->t_max);
+    return near <= m_min(far, p->t_max);
 }
 
 #endif

@@ -49,7 +49,7 @@ static inline void traverse_instance16(const TraceScene* scene, const QueuedPack
     PacketInstance i = instance_of(instance);
     float16 far;
     box_interval16(world, lo, hi, &i.near, &far);
-    const int16 enters = i.near <= m_min16(far, world->t_max);
+    const int16 enters = i.near <= m_min(far, world->t_max);
     if (!any_lane16(enters))
         return;
     const QueuedPacket object =

@@ -28,13 +28,13 @@ static inline BoxPlanes box_planes(global const Wide8Node* node, uint i, uint oc
 /* True when some lane may enter the box no later than its t_max. */
 static inline bool may_enter(const Packet* p, float t_min, const BoxPlanes* box) {
     const float16 near =
-        m_max16(m_max16(fma((float16)(box->near[0]), p->r[0], p->n[0]),
-                        fma((float16)(box->near[1]), p->r[1], p->n[1])),
-                m_max16(fma((float16)(box->near[2]), p->r[2], p->n[2]), (float16)(t_min)));
-    const float16 far = m_min16(m_min16(fma((float16)(box->far[0]), p->r[0], p->n[0]),
-                                        fma((float16)(box->far[1]), p->r[1], p->n[1])),
-                                fma((float16)(box->far[2]), p->r[2], p->n[2]));
-    return any_lane16(near <= m_min16(far * MACULA_FRUSTUM_GROW, p->t_max));
+        m_max(m_max(fma((float16)(box->near[0]), p->r[0], p->n[0]),
+                    fma((float16)(box->near[1]), p->r[1], p->n[1])),
+              m_max(fma((float16)(box->near[2]), p->r[2], p->n[2]), (float16)(t_min)));
+    const float16 far = m_min(m_min(fma((float16)(box->far[0]), p->r[0], p->n[0]),
+                                    fma((float16)(box->far[1]), p->r[1], p->n[1])),
+                              fma((float16)(box->far[2]), p->r[2], p->n[2]));
+    return any_lane16(near <= m_min(far * MACULA_FRUSTUM_GROW, p->t_max));
 }
 
 /* The same for lanes of several octants. */
@@ -46,8 +46,8 @@ static inline bool may_enter_mixed(const Packet* p, global const Wide8Node* node
         const int16 negative = p->r[axis] < 0.0f;
         const float16 entry = negative ? (float16)(hi) : (float16)(lo);
         const float16 exit = negative ? (float16)(lo - pad) : (float16)(hi + pad);
-        near = m_max16(near, fma(entry, p->r[axis], p->n[axis]));
-        far = m_min16(far, fma(exit, p->r[axis], p->n[axis]) * MACULA_FRUSTUM_GROW);
+        near = m_max(near, fma(entry, p->r[axis], p->n[axis]));
+        far = m_min(far, fma(exit, p->r[axis], p->n[axis]) * MACULA_FRUSTUM_GROW);
     }
     return any_lane16(near <= far);
 }

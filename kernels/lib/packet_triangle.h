@@ -54,8 +54,8 @@ static inline int16 cross_edges(const Packet* p, global const Triangle* tri, uin
     e->wa = difference_of_products16(cx, by, cy, bx);
     e->wb = difference_of_products16(ax, cy, ay, cx);
     e->wc = difference_of_products16(bx, ay, by, ax);
-    const float16 least = m_min16(m_min16(e->wa, e->wb), e->wc);
-    const float16 greatest = m_max16(m_max16(e->wa, e->wb), e->wc);
+    const float16 least = m_min(m_min(e->wa, e->wb), e->wc);
+    const float16 greatest = m_max(m_max(e->wa, e->wb), e->wc);
     return (least < 0.0f) ^ (greatest > 0.0f);
 }
 
@@ -75,7 +75,7 @@ static inline int16 clamp_to_triangle(const Packet* p, global const Triangle* tr
     float16 near, far;
     box_interval16(p, lo, hi, &near, &far);
     hit &= (*t >= p->t_min) & (near <= far);
-    *t = m_min16(m_max16(*t, near), far);
+    *t = m_min(m_max(*t, near), far);
     return hit & (*t <= p->t_max);
 }
 
@@ -106,7 +106,7 @@ static inline bool finish_triangle(const TraceScene* scene, const PacketInstance
     const uint id = tri->id & MACULA_ID_MASK;
     const uint16 triangle = instance->first_triangle + id;
 #if MACULA_INSTANCES
-    t = m_max16(t, instance->near);
+    t = m_max(t, instance->near);
     hit &= t <= p->t_max;
 #endif
 #if !MACULA_ANY_HIT

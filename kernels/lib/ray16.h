@@ -22,7 +22,7 @@ static inline int16 dominant_axis16(float16 dx, float16 dy, float16 dz) {
 }
 
 static inline float16 reach16(float16 ox, float16 oy, float16 oz) {
-    return m_max16(m_max16(fabs(ox), fabs(oy)), m_max16(fabs(oz), (float16)(0x1p-20f)));
+    return m_max(m_max(fabs(ox), fabs(oy)), m_max(fabs(oz), (float16)(0x1p-20f)));
 }
 
 #endif

@@ -5,13 +5,6 @@
 
 #include "lib/math_vector.h"
 
-static inline float16 m_min16(float16 a, float16 b) {
-    return a < b ? a : b;
-}
-static inline float16 m_max16(float16 a, float16 b) {
-    return a > b ? a : b;
-}
-
 /* `mask` is the result of a comparison: each lane 0 or -1. */
 static inline bool any_lane16(int16 mask) {
     const long2 halves = as_long2(convert_char16(mask));
@@ -39,17 +32,17 @@ static inline float greatest_lane16(float16 v) {
 /* The least lanes of eight vectors, folded together: half of a vector is left of each after the
  * first step, a quarter after the second, and so on. */
 static inline float16 fold_halves(float16 a, float16 b) {
-    return m_min16((float16)(a.lo, b.lo), (float16)(a.hi, b.hi));
+    return m_min((float16)(a.lo, b.lo), (float16)(a.hi, b.hi));
 }
 
 static inline float16 fold_quarters(float16 a, float16 b) {
-    return m_min16((float16)(a.s0123, a.s89ab, b.s0123, b.s89ab),
-                   (float16)(a.s4567, a.scdef, b.s4567, b.scdef));
+    return m_min((float16)(a.s0123, a.s89ab, b.s0123, b.s89ab),
+                 (float16)(a.s4567, a.scdef, b.s4567, b.scdef));
 }
 
 static inline float16 fold_eighths(float16 a, float16 b) {
-    return m_min16((float16)(a.s01, a.s45, a.s89, a.scd, b.s01, b.s45, b.s89, b.scd),
-                   (float16)(a.s23, a.s67, a.sab, a.sef, b.s23, b.s67, b.sab, b.sef));
+    return m_min((float16)(a.s01, a.s45, a.s89, a.scd, b.s01, b.s45, b.s89, b.scd),
+                 (float16)(a.s23, a.s67, a.sab, a.sef, b.s23, b.s67, b.sab, b.sef));
 }
 
 static inline float8 least_lanes16(const float16 v[8]) {

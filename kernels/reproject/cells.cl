@@ -5,7 +5,7 @@
 /* A row of support samples as the detection of errors sees it. */
 typedef struct Corners {
     Quad16 vertex;
-    Triple16 ray, normal; /* world space; the ray's depth is 1 */
+    Vector16 ray, normal; /* world space; the ray's depth is 1 */
     float16 inverse_depth, luminance;
     float16 along; /* normal . ray: below 0 */
 } Corners;
@@ -36,7 +36,7 @@ MACULA_ALWAYS_INLINE void load_corners(global const FrameParams* frame,
     c->normal.z = geometry.z;
     c->inverse_depth = inverse_depths(geometry.w);
     c->luminance = luminances(&colour);
-    c->along = dot16(&c->normal, &c->ray);
+    c->along = dot3(c->normal, c->ray);
 }
 
 /* How far `other` is from the plane of `corner`, as a part of the depth: along a plane the inverse
@@ -45,8 +45,8 @@ MACULA_ALWAYS_INLINE float16 off_plane(const Corners* corner, const Corners* oth
     const int16 facing = corner->along <= -1e-6f;
     const float16 along = facing ? corner->along : (float16)(-1.0f);
     const float16 expected =
-        corner->inverse_depth * m_divide(dot16(&corner->normal, &other->ray), along);
-    const float16 larger = m_max16(expected, other->inverse_depth);
+        corner->inverse_depth * m_divide(dot3(corner->normal, other->ray), along);
+    const float16 larger = m_max(expected, other->inverse_depth);
     const float16 part =
         m_divide(fabs(expected - other->inverse_depth), larger > 0.0f ? larger : (float16)(1.0f));
     const float16 apart = other->along > -1e-6f ? (float16)(0.0f) : (float16)(1.0f);
@@ -55,12 +55,12 @@ MACULA_ALWAYS_INLINE float16 off_plane(const Corners* corner, const Corners* oth
 
 /* The depth's difference beyond the surface's own slope, seen from both ends. */
 MACULA_ALWAYS_INLINE float16 jump_between(const Corners* a, const Corners* b) {
-    return m_max16(off_plane(a, b), off_plane(b, a));
+    return m_max(off_plane(a, b), off_plane(b, a));
 }
 
 /* Where edge_t of section 3.3 is too small. */
 MACULA_ALWAYS_INLINE int16 is_grazing(const Corners* c, float threshold) {
-    const float16 edge = -c->along * m_inverse_sqrt(dot16(&c->ray, &c->ray));
+    const float16 edge = -c->along * m_inverse_sqrt(dot3(c->ray, c->ray));
     return (c->along < -1e-6f) & (edge < threshold);
 }
 
@@ -76,22 +76,22 @@ MACULA_ALWAYS_INLINE int16 flag_where(int16 mask, uint flag) {
 /* MACULA_RESAMPLE_* of the cells with corners c[0..3] in rows. */
 MACULA_ALWAYS_INLINE int16 errors_of(const Corners* c, float16 step_x, float step_y,
                                      global const WeierParams* weier) {
-    const float16 jump = m_max16(m_max16(jump_between(c, c + 1), jump_between(c + 2, c + 3)),
-                                 m_max16(jump_between(c, c + 2), jump_between(c + 1, c + 3)));
-    const float16 across = m_max16(jump_between(c, c + 3), jump_between(c + 1, c + 2));
+    const float16 jump = m_max(m_max(jump_between(c, c + 1), jump_between(c + 2, c + 3)),
+                               m_max(jump_between(c, c + 2), jump_between(c + 1, c + 3)));
+    const float16 across = m_max(jump_between(c, c + 3), jump_between(c + 1, c + 2));
     const float16 bright =
-        m_max16(m_max16(c[0].luminance, c[1].luminance), m_max16(c[2].luminance, c[3].luminance));
+        m_max(m_max(c[0].luminance, c[1].luminance), m_max(c[2].luminance, c[3].luminance));
     const float16 dark =
-        m_min16(m_min16(c[0].luminance, c[1].luminance), m_min16(c[2].luminance, c[3].luminance));
+        m_min(m_min(c[0].luminance, c[1].luminance), m_min(c[2].luminance, c[3].luminance));
     const float16 stretch =
-        m_max16(m_max16(length_ratio(&c[0].vertex, &c[1].vertex, step_x),
-                        length_ratio(&c[2].vertex, &c[3].vertex, step_x)),
-                m_max16(length_ratio(&c[0].vertex, &c[2].vertex, (float16)(step_y)),
-                        length_ratio(&c[1].vertex, &c[3].vertex, (float16)(step_y))));
+        m_max(m_max(length_ratio(&c[0].vertex, &c[1].vertex, step_x),
+                    length_ratio(&c[2].vertex, &c[3].vertex, step_x)),
+              m_max(length_ratio(&c[0].vertex, &c[2].vertex, (float16)(step_y)),
+                    length_ratio(&c[1].vertex, &c[3].vertex, (float16)(step_y))));
     const float edge = weier->edge_threshold;
     const int16 grazing = is_grazing(c, edge) | is_grazing(c + 1, edge) | is_grazing(c + 2, edge) |
                           is_grazing(c + 3, edge);
-    return flag_where(m_max16(jump, across) > weier->depth_threshold, MACULA_RESAMPLE_DEPTH) |
+    return flag_where(m_max(jump, across) > weier->depth_threshold, MACULA_RESAMPLE_DEPTH) |
            flag_where(bright - dark > weier->luminance_threshold, MACULA_RESAMPLE_LUMINANCE) |
            flag_where(stretch > weier->stretch_threshold, MACULA_RESAMPLE_STRETCHED) |
            flag_where(grazing, MACULA_RESAMPLE_GRAZING);
@@ -106,11 +106,11 @@ typedef struct Bounds {
 } Bounds;
 
 MACULA_ALWAYS_INLINE float16 least_of(float16 a, float16 b, float16 c, float16 d) {
-    return m_min16(m_min16(a, b), m_min16(c, d));
+    return m_min(m_min(a, b), m_min(c, d));
 }
 
 MACULA_ALWAYS_INLINE float16 greatest_of(float16 a, float16 b, float16 c, float16 d) {
-    return m_max16(m_max16(a, b), m_max16(c, d));
+    return m_max(m_max(a, b), m_max(c, d));
 }
 
 /* Nothing is drawn of a cell that lies outside of the view or spans too many pixels. */
@@ -220,7 +220,7 @@ MACULA_ALWAYS_INLINE float16 put_homography(global float* block, uint triangle, 
     put(block, triangle + MACULA_PER_PIXEL_DEPTH + 1u, fma(b_deep, w->b_y, d_deep * w->c_y));
     const float16 right_x = fma(w->b_x, b_x, w->c_x * x), right_y = fma(w->b_x, b_y, w->c_x * y);
     const float16 down_x = fma(w->b_y, b_x, w->c_y * x), down_y = fma(w->b_y, b_y, w->c_y * y);
-    return m_max16(fma(right_x, right_x, right_y * right_y), fma(down_x, down_x, down_y * down_y));
+    return m_max(fma(right_x, right_x, right_y * right_y), fma(down_x, down_x, down_y * down_y));
 }
 
 MACULA_ALWAYS_INLINE void put_history(global float* block, const Corners* c, const Weights* upper,
@@ -237,7 +237,7 @@ MACULA_ALWAYS_INLINE void put_history(global float* block, const Corners* c, con
                                          step_x, none, step_x, y);
     const float16 below =
         put_homography(block, MACULA_CELL_LOWER, lower, a, &c[2].vertex, d, none, y, step_x, y);
-    put(block, MACULA_CELL_FOOTPRINT, m_max16(above, below));
+    put(block, MACULA_CELL_FOOTPRINT, m_max(above, below));
 }
 
 static inline int least_lane(int16 v) {

@@ -16,7 +16,7 @@ typedef struct Tile {
 MACULA_ALWAYS_INLINE uint16 ranks(float16 inverse_depth, uint depth_bits) {
     const float16 least = (float16)(MACULA_LEAST_INVERSE_DEPTH);
     const float16 most = (float16)(MACULA_GREATEST_INVERSE_DEPTH);
-    const float16 kept = m_min16(m_max16(inverse_depth, least), most);
+    const float16 kept = m_min(m_max(inverse_depth, least), most);
     const uint16 steps =
         (as_uint16(kept) - as_uint(MACULA_LEAST_INVERSE_DEPTH)) >> (28u - depth_bits);
     const uint last = (1u << depth_bits) - 1u;

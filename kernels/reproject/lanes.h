@@ -6,24 +6,13 @@
 #include "lib/camera.h"
 #include "lib/mesh_cells.h"
 #include "lib/simd.h"
+#include "lib/vector16.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
-
-typedef struct Triple16 {
-    float16 x, y, z;
-} Triple16;
 
 typedef struct Quad16 {
     float16 x, y, z, w;
 } Quad16;
-
-MACULA_ALWAYS_INLINE float16 dot16(const Triple16* a, const Triple16* b) {
-    return fma(a->x, b->x, fma(a->y, b->y, a->z * b->z));
-}
-
-MACULA_ALWAYS_INLINE float16 against16(const Triple16* a, float3 b) {
-    return fma(a->x, (float16)(b.x), fma(a->y, (float16)(b.y), a->z * b.z));
-}
 
 /* Entries from `first` on; the last one is repeated where there are fewer. */
 MACULA_ALWAYS_INLINE float16 load_lanes(global const float* values, uint first, uint count) {
@@ -62,14 +51,14 @@ MACULA_ALWAYS_INLINE float16 inverse_depths(float16 depth) {
 }
 
 /* World-space directions through the places x, y of last frame's image; their depth is 1. */
-MACULA_ALWAYS_INLINE Triple16 past_rays(global const FrameParams* frame, float16 x, float y) {
+MACULA_ALWAYS_INLINE Vector16 past_rays(global const FrameParams* frame, float16 x, float y) {
     global const Camera* camera = &frame->previous_camera;
     const float step_x = m_divide(camera->tan_right + camera->tan_left, (float)frame->width);
     const float step_y = m_divide(camera->tan_up + camera->tan_down, (float)frame->height);
     const float16 sx = fma(x, (float16)(step_x), (float16)(-camera->tan_left));
     const float sy = fma(y, -step_y, camera->tan_up);
     const float3 above = scale_add3(vector_at(camera->up), sy, vector_at(camera->forward));
-    Triple16 ray;
+    Vector16 ray;
     ray.x = fma((float16)(camera->right[0]), sx, (float16)(above.x));
     ray.y = fma((float16)(camera->right[1]), sx, (float16)(above.y));
     ray.z = fma((float16)(camera->right[2]), sx, (float16)(above.z));
@@ -78,28 +67,28 @@ MACULA_ALWAYS_INLINE Triple16 past_rays(global const FrameParams* frame, float16
 
 /* Vertices (lib/reprojection.h) on the rays of last frame's image, at inverse depths; z is -1 where
  * that depth is 0 or the vertex is not in front of the camera. */
-MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, const Triple16* ray,
+MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, const Vector16* ray,
                                              float16 inverse) {
     global const Camera *past = &frame->previous_camera, *now = &frame->camera;
     const float16 depth = m_divide((float16)(1.0f), inverse > 0.0f ? inverse : (float16)(1.0f));
     const float3 moved = vector_at(past->origin) - vector_at(now->origin);
-    Triple16 view;
+    Vector16 view;
     view.x = fma(ray->x, depth, (float16)(moved.x));
     view.y = fma(ray->y, depth, (float16)(moved.y));
     view.z = fma(ray->z, depth, (float16)(moved.z));
-    const float16 z = against16(&view, vector_at(now->forward));
+    const float16 z = dot3(view, spread16(vector_at(now->forward)));
     const int16 seen = (inverse > 0.0f) & (z > 1e-20f);
     const float16 kept = seen ? z : (float16)(1.0f);
     const float16 share = m_divide((float16)(1.0f), kept);
-    const float16 sx = against16(&view, vector_at(now->right)) * share;
-    const float16 sy = against16(&view, vector_at(now->up)) * share;
+    const float16 sx = dot3(view, spread16(vector_at(now->right))) * share;
+    const float16 sy = dot3(view, spread16(vector_at(now->up))) * share;
     const float16 x = m_divide(sx + now->tan_left, (float16)(now->tan_right + now->tan_left)) *
                       (float)frame->width;
     const float16 y =
         m_divide(now->tan_up - sy, (float16)(now->tan_up + now->tan_down)) * (float)frame->height;
     Quad16 v;
-    v.x = seen ? m_min16(m_max16(x, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
-    v.y = seen ? m_min16(m_max16(y, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
+    v.x = seen ? m_min(m_max(x, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
+    v.y = seen ? m_min(m_max(y, (float16)(-1e6f)), (float16)(1e6f)) : (float16)(0.0f);
     v.z = seen ? share : (float16)(-1.0f);
     v.w = seen ? m_divide(depth, kept) : (float16)(0.0f);
     return v;

@@ -60,7 +60,7 @@ kernel void project_mesh(global const FrameParams* restrict frame,
     for (uint lane = 0u; lane < lanes; ++lane)
         if (edge_row || i + lane == 0u || i + lane + 1u == across)
             inverse[lane] = at_the_edge(weier, &places, support, i + lane, j);
-    const Triple16 ray = past_rays(frame, load_lanes(mesh_columns, i, across), mesh_rows[j]);
+    const Vector16 ray = past_rays(frame, load_lanes(mesh_columns, i, across), mesh_rows[j]);
     const Quad16 v = project_vertices(frame, &ray, vload16(0, inverse));
     float x[16], y[16], z[16], w[16];
     vstore16(v.x, 0, x);

@@ -60,8 +60,9 @@ class Variants : public testing::TestWithParam<std::string> {
                               << traced.occluded[i];
         }
         EXPECT_EQ(wrong, 0u) << "of " << count;
-        if (count >= 1000) // the scene and the rays are meant to meet
+        if (count >= 1000) { // the scene and the rays are meant to meet
             EXPECT_GT(hit, count / 20);
+        }
     }
 
     void expect_reference(const scene::Scene& scene, const std::vector<bvh::Ray>& rays) {
