@@ -144,7 +144,7 @@ def check_page(browser):
          "/NaN|undefined/.test(e.outerHTML))", "there is a NaN or an undefined in the page"),
     ]
     press = ("(k => document.dispatchEvent(new KeyboardEvent('keydown', {key: k, bubbles: true})))")
-    shown = ("[...document.querySelector('.viewer .stage').children]"
+    shown = ("[...(document.querySelector('.viewer .stage')?.children || [])]"
              ".findIndex(s => s.classList.contains('shown'))")
     for key, index in (("1", 0), ("3", 2), ("2", 1)):
         expect.append((f"({press}('{key}'), {shown} === {index})",
