@@ -63,9 +63,8 @@ frame::Tangents tangents_of(const scene::Display& display) {
 }
 
 double camera_rays(const render::FrameReport& report) {
-    return static_cast<double>(
-        report.rays[static_cast<std::size_t>(kernel::RayClass::primary)] +
-        report.rays[static_cast<std::size_t>(kernel::RayClass::sparse)]);
+    return static_cast<double>(report.rays[static_cast<std::size_t>(kernel::RayClass::primary)] +
+                               report.rays[static_cast<std::size_t>(kernel::RayClass::sparse)]);
 }
 
 } // namespace macula::bench

@@ -7,8 +7,7 @@
 
 namespace macula::bench {
 
-LineFile::LineFile(std::filesystem::path path,
-                   const std::function<void(const std::string&)>& parse)
+LineFile::LineFile(std::filesystem::path path, const std::function<void(const std::string&)>& parse)
     : path_(std::move(path)) {
     if (path_.empty() || !std::filesystem::exists(path_))
         return;

@@ -32,17 +32,17 @@ struct QualityOptions {
     std::uint32_t width = 0, height = 0;  // pixels; 0: the display's
     // A recording with gaze and head (an importer's format); empty: that of wearer.hpp.
     std::filesystem::path trace;
-    std::string gaze, tracker; // as those of `macula render`; an empty gaze: the trace's
-    std::string head;          // FILE.csv, "scene" (the path alone); empty: the trace's
-    std::uint32_t frames = 12; // measured, 1..100000
-    std::uint32_t segments = 3;           // consecutive stretches of the path, 1..frames
-    std::uint32_t warm_up = 8;            // frames before each that do not count, 1..1000
-    std::uint32_t reference_spp = 36;     // 1..65536
+    std::string gaze, tracker;        // as those of `macula render`; an empty gaze: the trace's
+    std::string head;                 // FILE.csv, "scene" (the path alone); empty: the trace's
+    std::uint32_t frames = 12;        // measured, 1..100000
+    std::uint32_t segments = 3;       // consecutive stretches of the path, 1..frames
+    std::uint32_t warm_up = 8;        // frames before each that do not count, 1..1000
+    std::uint32_t reference_spp = 36; // 1..65536
     std::uint32_t light_samples = 8, ambient_occlusion_samples = 16, seed = 0;
-    std::uint32_t pictures = 2;             // frames with pictures, for each case
-    std::filesystem::path bvh_cache;        // folder; empty: none
-    std::filesystem::path reference_cache;  // folder; empty: none
-    std::filesystem::path results;          // JSON lines; pictures lie beside it; empty: no files
+    std::uint32_t pictures = 2;            // frames with pictures, for each case
+    std::filesystem::path bvh_cache;       // folder; empty: none
+    std::filesystem::path reference_cache; // folder; empty: none
+    std::filesystem::path results;         // JSON lines; pictures lie beside it; empty: no files
 };
 
 struct QualityProgress {

@@ -94,9 +94,8 @@ QualityFlight::QualityFlight(const QualityOptions& options, const compute::Devic
     on_device_ = std::make_shared<render::DeviceScene>(device, scene_, geometry);
 }
 
-render::Renderer
-QualityFlight::make(frame::LightMode lights,
-                    const std::function<void(render::Options&)>& change) const {
+render::Renderer QualityFlight::make(frame::LightMode lights,
+                                     const std::function<void(render::Options&)>& change) const {
     render::Options engine;
     engine.width = display_.width;
     engine.height = display_.height;

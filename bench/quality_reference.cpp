@@ -94,9 +94,8 @@ std::filesystem::path References::file_of(std::uint32_t frame) const {
 ReferenceFrame References::render(std::uint32_t frame) {
     if (!full_) {
         full_.emplace(flight_.make(lights_, [](render::Options& o) { o.images = {"motion"}; }));
-        converged_.emplace(flight_.make(lights_, [&](render::Options& o) {
-            o.samples_per_pixel = options_.reference_spp;
-        }));
+        converged_.emplace(flight_.make(
+            lights_, [&](render::Options& o) { o.samples_per_pixel = options_.reference_spp; }));
     }
     ++rendered_;
     flight_.render(*full_, frame - 1); // motion leads there

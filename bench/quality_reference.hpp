@@ -13,8 +13,8 @@
 namespace macula::bench {
 
 struct ReferenceFrame {
-    metric::Picture converged;   // `full` with many samples a pixel
-    metric::Picture full;        // with one
+    metric::Picture converged;  // `full` with many samples a pixel
+    metric::Picture full;       // with one
     metric::MotionField motion; // from the frame before on the path
 };
 
@@ -24,8 +24,7 @@ struct ReferenceFrame {
 class References {
   public:
     // Flight and options must outlive it. With kernels of MACULA_KERNEL_DIR nothing is cached.
-    References(const QualityFlight& flight, const QualityOptions& options,
-               frame::LightMode lights);
+    References(const QualityFlight& flight, const QualityOptions& options, frame::LightMode lights);
 
     // Of a measured frame.
     ReferenceFrame at(std::uint32_t frame);

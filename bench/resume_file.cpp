@@ -13,8 +13,8 @@ auto key(const FoveationRow& r) {
 } // namespace
 
 ResumeFile::ResumeFile(std::filesystem::path path)
-    : file_(std::move(path), [this](const std::string& line) { rows_.push_back(parse_row(line)); }) {
-}
+    : file_(std::move(path),
+            [this](const std::string& line) { rows_.push_back(parse_row(line)); }) {}
 
 const FoveationRow* ResumeFile::find(const FoveationRow& wanted) const {
     for (const FoveationRow& row : rows_) {

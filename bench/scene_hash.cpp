@@ -14,9 +14,13 @@ class Digest {
     Digest() { XXH3_128bits_reset(state_.get()); }
 
     // Of types without padding: numbers, enumerations, vectors of them.
-    template <class... T> void add(const T&... values) { (one(values), ...); }
+    template <class... T>
+    void add(const T&... values) {
+        (one(values), ...);
+    }
 
-    template <class T> void list(const std::vector<T>& values) {
+    template <class T>
+    void list(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         add(std::uint64_t{values.size()});
         XXH3_128bits_update(state_.get(), values.data(), values.size() * sizeof(T));
@@ -28,7 +32,8 @@ class Digest {
     }
 
   private:
-    template <class T> void one(const T& value) {
+    template <class T>
+    void one(const T& value) {
         static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
         XXH3_128bits_update(state_.get(), &value, sizeof value);
     }

@@ -54,9 +54,8 @@ Wearer wearer_of(const QualityOptions& options, const scene::Display& display) {
             "recording " + fs::path(options.head).filename().string() + " on the scene's path";
     }
     if (!wearer.gaze) {
-        wearer.gaze =
-            scene::parse_gaze(options.gaze.empty() ? "synthetic" : options.gaze,
-                              {display, scene::Eye::mono, {}});
+        wearer.gaze = scene::parse_gaze(options.gaze.empty() ? "synthetic" : options.gaze,
+                                        {display, scene::Eye::mono, {}});
         wearer.gaze_name = wearer.gaze->describe();
     }
     if (!options.tracker.empty())

@@ -5,8 +5,8 @@ const kMeasures = [
   { name: "foveated FLIP", get: (c) => c.scores.foveated_flip.mean },
   { name: "FLIP", get: (c) => c.scores.flip.mean },
   { name: "FLIP, weighted median", get: (c) => c.scores.flip.weighted_median },
-  { name: "flicker", get: (c) => c.scores.flicker },
-  { name: "motion-compensated change", get: (c) => c.scores.motion_compensated },
+  { name: "flicker energy", get: (c) => c.scores.flicker_energy },
+  { name: "instability", get: (c) => c.scores.instability },
   { name: "PSNR (dB)", get: (c) => c.scores.psnr, more: true },
   { name: "SSIM", get: (c) => c.scores.ssim, more: true },
 ];
@@ -41,7 +41,7 @@ function label_place(taken, x, y, text, plot) {
   };
   const cost = (place) => {
     const [l, t, r, b] = box(place);
-    const outside = Math.max(0, r - plot.right) + Math.max(0, 50 - l) + Math.max(0, b - plot.bottom);
+    const outside = Math.max(0, r - plot.right) + Math.max(0, 60 - l) + Math.max(0, b - plot.bottom);
     return outside * 20 + taken.reduce((sum, [l2, t2, r2, b2]) => sum +
       Math.max(0, Math.min(r, r2) - Math.max(l, l2)) *
       Math.max(0, Math.min(b, b2) - Math.max(t, t2)), 0);
@@ -78,6 +78,9 @@ function pareto_plot(cases, measure, width) {
   return plot.root;
 }
 
+const band_limits = (cases) => distinct(cases.flatMap((c) => c.bands.slice(0, -1)
+  .map((b) => `${b.name} to ${number(b.to)}°`))).join(", ");
+
 function eccentricity_plot(cases, width) {
   const known = cases.filter((c) => c.eccentricity.degrees.length > 0);
   if (known.length === 0) return html("p", { class: "note" }, "No gaze, no eccentricity.");
@@ -88,9 +91,7 @@ function eccentricity_plot(cases, width) {
   for (const band of known[0].bands.slice(1))
     if (band.from < across.to)
       plot.root.append(svg("line", { class: "frontline", x1: plot.x(band.from),
-                                     x2: plot.x(band.from), y1: plot.top, y2: plot.bottom }),
-        svg("text", { class: "tick", "text-anchor": "end", transform:
-                      `translate(${plot.x(band.from) + 12} ${plot.top}) rotate(-90)` }, band.name));
+                                     x2: plot.x(band.from), y1: plot.top, y2: plot.bottom }));
   for (const c of known)
     plot.root.append(line(plot, c.eccentricity.degrees.map((d, i) =>
       [d, c.eccentricity.flip[i] === undefined ? null : c.eccentricity.flip[i]]), c.index));

@@ -76,7 +76,7 @@ function ticks(from, to, logarithmic) {
 
 // Axes over a drawing of `width` CSS pixels: { root, x, y } with x and y from data to drawing.
 function axes(width, height, across, up, title) {
-  const left = 56, right = 14, top = 12, bottom = 42;
+  const left = 66, right = 14, top = 12, bottom = 42;
   const place = (axis, from, to) => (value) => {
     const part = axis.logarithmic
       ? Math.log(value / axis.from) / Math.log(axis.to / axis.from)
@@ -104,10 +104,13 @@ function axes(width, height, across, up, title) {
   return { root, x, y, top, bottom: height - bottom, right: width - right };
 }
 
-// The range of an axis that starts at 0; never empty.
+// The range of an axis with 0 in it; never empty.
 function from_zero(values, title) {
-  const greatest = Math.max(0, ...values.filter(is_number));
-  return { from: 0, to: greatest > 0 ? greatest * 1.08 : 1, title };
+  const known = values.filter(is_number);
+  const least = Math.min(0, ...known), greatest = Math.max(0, ...known);
+  const room = .08 * (greatest - least);
+  if (room === 0) return { from: 0, to: 1, title };
+  return { from: least < 0 ? least - room : 0, to: greatest + room, title };
 }
 
 // [x, y or null] as a path with gaps, and what stands between two gaps alone as a dot.
@@ -130,7 +133,7 @@ function line(plot, points, index) {
 // A figure whose drawing follows the width that it has.
 function figure(title, draw, below) {
   const place = html("div", {});
-  const element = html("figure", {}, html("h3", {}, title), place, below || null);
+  const element = html("figure", {}, html("h3", {}, title), place, below);
   let drawn = 0;
   const redraw = (force) => {
     const width = Math.round(Math.min(760, Math.max(280, place.clientWidth || 600)));

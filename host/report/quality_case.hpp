@@ -32,8 +32,8 @@ struct Scores {
     Errors flip, foveated_flip;
     std::optional<double> psnr; // dB; none: identical
     double ssim = 0.0;
-    // Means over the pairs of neighbouring frames; none without such a pair.
-    std::optional<double> flicker, motion_compensated;
+    // Of host/metric/temporal.hpp, over the pairs of neighbouring frames; none without such a pair.
+    std::optional<double> flicker_energy, instability;
 };
 
 // Against the frames of `full` with one sample a pixel, whose aliasing the reference has not.
@@ -48,7 +48,7 @@ struct Band {
     std::string name;
     double from = 0.0, to = 0.0;
     double part = 0.0; // of the pixels
-    std::optional<double> flip, flicker, motion_compensated;
+    std::optional<double> flip, flicker_energy, instability;
 };
 
 // Mean FLIP at eccentricities (degrees, the middles of equal steps).
@@ -60,7 +60,8 @@ struct Curve {
 struct Series {
     std::vector<std::uint32_t> frame;
     std::vector<double> ms, flip, foveated_flip;
-    std::vector<std::optional<double>> flicker; // none in a stretch's first frame
+    // None in a stretch's first frame.
+    std::vector<std::optional<double>> flicker_energy, instability;
 };
 
 // Files below the folder of the results.

@@ -72,8 +72,8 @@ void visit(Visitor& v, T& r) {
         v("foveated_flip", r.foveated_flip);
         v("psnr", r.psnr);
         v("ssim", r.ssim);
-        v("flicker", r.flicker);
-        v("motion_compensated", r.motion_compensated);
+        v("flicker_energy", r.flicker_energy);
+        v("instability", r.instability);
     } else if constexpr (std::is_same_v<Type, AgainstFull>) {
         v("flip", r.flip);
         v("foveated_flip", r.foveated_flip);
@@ -85,8 +85,8 @@ void visit(Visitor& v, T& r) {
         v("to", r.to);
         v("part", r.part);
         v("flip", r.flip);
-        v("flicker", r.flicker);
-        v("motion_compensated", r.motion_compensated);
+        v("flicker_energy", r.flicker_energy);
+        v("instability", r.instability);
     } else if constexpr (std::is_same_v<Type, Curve>) {
         v("degrees", r.degrees);
         v("flip", r.flip);
@@ -95,7 +95,8 @@ void visit(Visitor& v, T& r) {
         v("ms", r.ms);
         v("flip", r.flip);
         v("foveated_flip", r.foveated_flip);
-        v("flicker", r.flicker);
+        v("flicker_energy", r.flicker_energy);
+        v("instability", r.instability);
     } else if constexpr (std::is_same_v<Type, Picture>) {
         v("frame", r.frame);
         v("gaze", r.gaze);
@@ -242,7 +243,8 @@ void check(const QualityCase& r) {
         refuse("fields \"width\" and \"height\" must lie between 1 and 16384");
     const Series& s = r.series;
     if (s.ms.size() != s.frame.size() || s.flip.size() != s.frame.size() ||
-        s.foveated_flip.size() != s.frame.size() || s.flicker.size() != s.frame.size())
+        s.foveated_flip.size() != s.frame.size() || s.flicker_energy.size() != s.frame.size() ||
+        s.instability.size() != s.frame.size())
         refuse("the lists in field \"series\" differ in length");
     if (r.eccentricity.degrees.size() != r.eccentricity.flip.size())
         refuse("the lists in field \"eccentricity\" differ in length");

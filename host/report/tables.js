@@ -54,8 +54,8 @@ function score_table(cases, front) {
     { title: "PSNR", more: true,
       get: (c) => c.scores.psnr === null ? "identical" : c.scores.psnr },
     { title: "SSIM", more: true, get: (c) => c.scores.ssim },
-    { title: "flicker", get: (c) => c.scores.flicker },
-    { title: "mc. change", get: (c) => c.scores.motion_compensated },
+    { title: "flicker energy", get: (c) => c.scores.flicker_energy },
+    { title: "instability", get: (c) => c.scores.instability },
   ];
   return table(cases, case_cell(front), scores);
 }
@@ -63,9 +63,10 @@ function score_table(cases, front) {
 function band_table(cases, front) {
   const columns = band_names(cases).flatMap((name) => [
     { title: `${name}: FLIP`, get: (c) => band(c, name) ? band(c, name).flip : null },
-    { title: "flicker", get: (c) => band(c, name) ? band(c, name).flicker : null },
-    { title: "mc. change",
-      get: (c) => band(c, name) ? band(c, name).motion_compensated : null },
+    { title: "flicker energy",
+      get: (c) => band(c, name) ? band(c, name).flicker_energy : null },
+    { title: "instability",
+      get: (c) => band(c, name) ? band(c, name).instability : null },
   ]);
   columns.push({ title: "inside r0, against full: FLIP",
                  get: (c) => c.against_full.flip_inside_r0 });
@@ -93,7 +94,8 @@ function equal_table(groups) {
     { title: "ms", get: (row) => `${number(row.ours.time_ms.median)} and ` +
                                  number(row.low.time_ms.median) },
     { title: "foveated FLIP", get: pair((c) => c.scores.foveated_flip.mean) },
-    { title: "flicker", get: pair((c) => c.scores.flicker) },
+    { title: "flicker energy", get: pair((c) => c.scores.flicker_energy) },
+    { title: "instability", get: pair((c) => c.scores.instability) },
     { title: "FLIP", get: pair((c) => c.scores.flip.mean) },
   ]);
   for (const cell of result.querySelectorAll("td"))
@@ -122,7 +124,7 @@ function summary_table(groups) {
     { title: "samples a pixel", plain: true, get: over((c) => c.samples / (c.width * c.height)) },
     { title: "foveated FLIP", get: over((c) => c.scores.foveated_flip.mean) },
     { title: "FLIP", get: over((c) => c.scores.flip.mean) },
-    { title: "flicker", get: over((c) => c.scores.flicker) },
+    { title: "flicker energy", get: over((c) => c.scores.flicker_energy) },
     { title: "SSIM", more: true, get: over((c) => c.scores.ssim) },
     { title: "inside r0, against full: FLIP", get: over((c) => c.against_full.flip_inside_r0) },
   ]);

@@ -91,7 +91,7 @@ function viewer(cases, images) {
     frame_choice.selectedIndex = state.picture;
     stage.style.width = state.zoom === 1 ? "auto" : `${c.width * state.zoom}px`;
     stage.style.maxWidth = state.zoom === 1
-      ? `min(${c.width * 2}px, ${(78 * c.width / c.height).toFixed(1)}vh)` : "none";
+      ? `min(${Math.max(512, c.width * 2)}px, ${(78 * c.width / c.height).toFixed(1)}vh)` : "none";
     [...stage.children].forEach((shot, i) => {
       shot.classList.toggle("shown", i === state.shot);
       shot.querySelector(".gaze").style.display = state.gaze ? "" : "none";

@@ -28,12 +28,13 @@ inline report::QualityCase quality_case(const std::string& method = "weier") {
     c.stages = {{"trace camera rays", 1, {1.5, 1.6, 1.7}}};
     c.scores.flip = {0.1, 0.2, 0.05, 0.3, 0.9};
     c.scores.psnr = 31.5;
-    c.scores.flicker = 0.01;
+    c.scores.flicker_energy = 0.01;
     c.against_full.flip_inside_r0 = 0.015;
     c.bands = {{"fovea", 0.0, 5.0, 0.1, 0.02, 0.001, std::nullopt}};
     c.eccentricity = {{0.5, 1.5}, {0.1, 0.2}};
-    c.series = {{0, 500, 501}, {2.0, 2.1, 2.2}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05}, {}};
-    c.series.flicker = {std::nullopt, std::nullopt, 0.01};
+    c.series = {{0, 500, 501}, {2.0, 2.1, 2.2}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05}, {}, {}};
+    c.series.flicker_energy = {std::nullopt, std::nullopt, 0.01};
+    c.series.instability = {std::nullopt, std::nullopt, -0.01};
     return c;
 }
 
