@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <tbb/parallel_for.h>
-
-#include "host/metric/separable.hpp"
 
 namespace macula::metric {
 namespace {
@@ -27,45 +26,71 @@ double sum_of_rows(std::uint32_t height, const OfRow& of_row) {
     return total;
 }
 
-Plane luma(const Picture& picture) {
-    Plane plane(picture.width, picture.height);
-    tbb::parallel_for(std::uint32_t{0}, picture.height, [&](std::uint32_t y) {
-        for (std::uint32_t x = 0; x < picture.width; ++x) {
-            const float* rgb = &picture.rgb[3 * (std::size_t{y} * picture.width + x)];
-            plane.row(y)[x] =
-                0.299f * encoded(rgb[0]) + 0.587f * encoded(rgb[1]) + 0.114f * encoded(rgb[2]);
-        }
-    });
-    return plane;
+/// One double a pixel: variances are differences of nearly equal sums.
+struct Luma {
+    std::size_t width, height;
+    std::vector<double> values;
+
+    explicit Luma(const Picture& picture)
+        : width(picture.width), height(picture.height), values(picture.pixels()) {
+        tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+            for (std::size_t i = y * width; i < (y + 1) * width; ++i) {
+                const float* rgb = &picture.rgb[3 * i];
+                values[i] =
+                    0.299 * encoded(rgb[0]) + 0.587 * encoded(rgb[1]) + 0.114 * encoded(rgb[2]);
+            }
+        });
+    }
+};
+
+/// Weights of a Gaussian over the greatest odd number of pixels up to 11 that fits.
+std::vector<double> ssim_window(std::size_t side) {
+    const int radius = static_cast<int>((std::min<std::size_t>(side, 11) - 1) / 2);
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (int i = -radius; i <= radius; ++i) {
+        weights.push_back(std::exp(-i * i / (2.0 * 1.5 * 1.5)));
+        sum += weights.back();
+    }
+    for (double& weight : weights)
+        weight /= sum;
+    return weights;
 }
 
-Plane product(const Plane& a, const Plane& b) {
-    Plane result(a.width, a.height);
-    std::transform(a.values.begin(), a.values.end(), b.values.begin(), result.values.begin(),
-                   [](float x, float y) { return x * y; });
+/// Means of a, b, a^2, b^2 and a b around a pixel, or along a row of one.
+struct Moments {
+    double a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+    void add(const Moments& m, double weight) {
+        a += weight * m.a;
+        b += weight * m.b;
+        aa += weight * m.aa;
+        bb += weight * m.bb;
+        ab += weight * m.ab;
+    }
+};
+
+/// Along the rows, of the columns that the window fits around.
+std::vector<Moments> row_moments(const Luma& a, const Luma& b, const std::vector<double>& weights) {
+    const std::size_t width = a.width - weights.size() + 1;
+    std::vector<Moments> result(width * a.height);
+    tbb::parallel_for(std::size_t{0}, a.height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            for (std::size_t k = 0; k < weights.size(); ++k) {
+                const double va = a.values[y * a.width + x + k];
+                const double vb = b.values[y * a.width + x + k];
+                result[y * width + x].add({va, vb, va * va, vb * vb, va * vb}, weights[k]);
+            }
+        }
+    });
     return result;
 }
 
-Taps ssim_window(std::uint32_t side) {
-    const int radius = static_cast<int>((std::min<std::uint32_t>(side, 11) - 1) / 2);
-    std::vector<double> values;
-    double sum = 0.0;
-    for (int i = -radius; i <= radius; ++i) {
-        values.push_back(std::exp(-i * i / (2.0 * 1.5 * 1.5)));
-        sum += values.back();
-    }
-    Taps taps;
-    for (const double x : values)
-        taps.weights.push_back(static_cast<float>(x / sum));
-    return taps;
-}
-
-double similarity(double mean_a, double mean_b, double square_a, double square_b, double both) {
+double similarity(const Moments& m) {
     constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
-    const double variance_a = square_a - mean_a * mean_a, variance_b = square_b - mean_b * mean_b;
-    const double covariance = both - mean_a * mean_b;
-    return (2.0 * mean_a * mean_b + c1) * (2.0 * covariance + c2) /
-           ((mean_a * mean_a + mean_b * mean_b + c1) * (variance_a + variance_b + c2));
+    const double variance_a = m.aa - m.a * m.a, variance_b = m.bb - m.b * m.b;
+    const double covariance = m.ab - m.a * m.b;
+    return (2.0 * m.a * m.b + c1) * (2.0 * covariance + c2) /
+           ((m.a * m.a + m.b * m.b + c1) * (variance_a + variance_b + c2));
 }
 
 } // namespace
@@ -91,27 +116,21 @@ double psnr(double mean_squared_error) {
 
 double ssim(const Picture& reference, const Picture& test) {
     check_pair(reference, test);
-    const Plane a = luma(reference), b = luma(test);
-    const Taps taps = ssim_window(std::min(a.width, a.height));
-    const auto radius = static_cast<std::uint32_t>(taps.radius());
-    const Window inside{radius, radius, a.width - radius, a.height - radius};
-    const Plane* planes[2] = {&a, &b};
-    const Plane products[3] = {product(a, a), product(b, b), product(a, b)};
-    FilteredRows rows[5];
-    for (int i = 0; i < 5; ++i)
-        rows[i] = filter_rows(i < 2 ? *planes[i] : products[i - 2], inside, taps, taps.radius());
-    const double total = sum_of_rows(inside.height(), [&](std::uint32_t y) {
-        std::vector<float> values[5];
-        for (int i = 0; i < 5; ++i) {
-            values[i].resize(inside.width());
-            filter_column_row(rows[i], inside.y0 + y, a.height, taps, values[i]);
-        }
+    const std::vector<double> weights = ssim_window(std::min(reference.width, reference.height));
+    const std::vector<Moments> rows = row_moments(Luma(reference), Luma(test), weights);
+    const std::size_t height = reference.height - weights.size() + 1;
+    const std::size_t width = rows.size() / reference.height;
+    const double total = sum_of_rows(static_cast<std::uint32_t>(height), [&](std::size_t y) {
         double sum = 0.0;
-        for (std::size_t x = 0; x < inside.width(); ++x)
-            sum += similarity(values[0][x], values[1][x], values[2][x], values[3][x], values[4][x]);
+        for (std::size_t x = 0; x < width; ++x) {
+            Moments m;
+            for (std::size_t k = 0; k < weights.size(); ++k)
+                m.add(rows[(y + k) * width + x], weights[k]);
+            sum += similarity(m);
+        }
         return sum;
     });
-    return total / (static_cast<double>(inside.width()) * inside.height());
+    return total / static_cast<double>(width * height);
 }
 
 } // namespace macula::metric

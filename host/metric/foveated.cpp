@@ -68,8 +68,7 @@ std::vector<BandScore> band_scores(const ScalarMap& errors, const ScalarMap& ecc
     for (const Band& band : bands) {
         inside.clear();
         for (std::size_t i = 0; i < errors.values.size(); ++i) {
-            const double e = eccentricity.values[i];
-            if (e >= band.from && e < band.to)
+            if (band.contains(eccentricity.values[i]))
                 inside.push_back(errors.values[i]);
         }
         scores.push_back({band, inside.size(), inside.empty() ? Pooled{} : pool(inside)});

@@ -26,6 +26,9 @@ scene::Display flat_display(std::uint32_t width, std::uint32_t height, double pi
 struct Band {
     std::string name;
     double from = 0.0, to = 180.0;
+    bool contains(float eccentricity) const {
+        return eccentricity >= static_cast<float>(from) && eccentricity < static_cast<float>(to);
+    }
 };
 
 /// fovea (below 2.6 degrees; 5.2 in diameter, Wandell 1995 as in Weier et al. 2016), parafovea (to

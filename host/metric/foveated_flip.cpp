@@ -15,8 +15,8 @@ namespace {
 /// FLIP is computed at densities of base * 2^(level / 2), and a pixel's error interpolated between
 /// the two levels next to its own density.
 constexpr double kLevelsPerOctave = 2.0;
-/// From this density on the picture is halved first: the narrowest filter is then 3 pixels wide
-/// (sigma), and four pixels' mean in the place of each hardly widens it.
+/// From this density on the picture is halved first, whose own blur hardly widens filters that are
+/// then at least 1.5 pixels wide (sigma): on rendered frames means move by 0.1 %.
 constexpr double kHalvingDensity = 200.0;
 
 /// Pixels per degree of the gaze whose filters the pixel sees, as levels above `base`.

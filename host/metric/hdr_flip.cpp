@@ -94,7 +94,8 @@ Exposures find_exposures(const Picture& reference, ToneMapper tone_mapper) {
     }
     std::sort(luminances.begin(), luminances.end());
     const double brightest = luminances.back();
-    // As the authors' evaluator: the upper of two middle values, never below the step of a float at 1.
+    // As the authors' evaluator: the upper of two middle values, never below the step of a float
+    // at 1.
     const double median =
         std::max(luminances[luminances.size() / 2], std::numeric_limits<float>::epsilon());
     if (!(brightest > 0.0))

@@ -78,50 +78,47 @@ std::vector<TemporalScore> TemporalScores::add(const Picture& reference, const P
                                                 reference_.height));
     ScalarMap r = lightness(reference), t = lightness(test);
     std::vector<Sum> sums(sums_.size());
-    if (frames_ > 0) {
-        // Row by row, and the rows in their order: the same for all numbers of threads.
-        std::vector<std::vector<Sum>> rows(reference.height, std::vector<Sum>(sums.size()));
-        tbb::parallel_for(std::uint32_t{0}, reference.height, [&](std::uint32_t y) {
-            for (std::uint32_t x = 0; x < reference.width; ++x) {
-                const std::size_t i = std::size_t{y} * reference.width + x;
-                const float mx = motion != nullptr ? motion->xy[2 * i] : 0.0f;
-                const float my = motion != nullptr ? motion->xy[2 * i + 1] : 0.0f;
-                const auto before =
-                    place(r, static_cast<float>(x) + mx, static_cast<float>(y) + my);
-                if (!before)
-                    continue;
-                const double dr = double{r.values[i]} - before->read(reference_);
-                const double dt = double{t.values[i]} - before->read(test_);
-                const auto count = [&](Sum& sum) {
-                    ++sum.pixels;
-                    sum.instability += std::fabs(dt) - std::fabs(dr);
-                    sum.energy += 0.5 * (dt - dr) * (dt - dr);
-                };
-                count(rows[y].back());
-                for (std::size_t b = 0; b < bands_.size(); ++b) {
-                    const double e = eccentricity.values[i];
-                    if (e >= bands_[b].from && e < bands_[b].to)
-                        count(rows[y][b]);
-                }
-            }
-        });
-        for (const auto& row : rows) {
-            for (std::size_t b = 0; b < sums.size(); ++b) {
-                sums[b].pixels += row[b].pixels;
-                sums[b].instability += row[b].instability;
-                sums[b].energy += row[b].energy;
-            }
-        }
-    }
-    for (std::size_t b = 0; b < sums.size(); ++b) {
-        sums_[b].pixels += sums[b].pixels;
-        sums_[b].instability += sums[b].instability;
-        sums_[b].energy += sums[b].energy;
-    }
+    if (frames_ > 0)
+        sums = changes(r, t, eccentricity, motion);
+    for (std::size_t b = 0; b < sums.size(); ++b)
+        sums_[b].add(sums[b]);
     reference_ = std::move(r);
     test_ = std::move(t);
     ++frames_;
     return scores_of(sums);
+}
+
+std::vector<TemporalScores::Sum> TemporalScores::changes(const ScalarMap& reference,
+                                                         const ScalarMap& test,
+                                                         const ScalarMap& eccentricity,
+                                                         const MotionField* motion) const {
+    // Row by row, and the rows in their order: the same for all numbers of threads.
+    std::vector<std::vector<Sum>> rows(reference.height, std::vector<Sum>(sums_.size()));
+    tbb::parallel_for(std::uint32_t{0}, reference.height, [&](std::uint32_t y) {
+        for (std::uint32_t x = 0; x < reference.width; ++x) {
+            const std::size_t i = std::size_t{y} * reference.width + x;
+            const float mx = motion != nullptr ? motion->xy[2 * i] : 0.0f;
+            const float my = motion != nullptr ? motion->xy[2 * i + 1] : 0.0f;
+            const auto before =
+                place(reference, static_cast<float>(x) + mx, static_cast<float>(y) + my);
+            if (!before)
+                continue;
+            const double dr = double{reference.values[i]} - before->read(reference_);
+            const double dt = double{test.values[i]} - before->read(test_);
+            const Sum change{1, std::fabs(dt) - std::fabs(dr), 0.5 * (dt - dr) * (dt - dr)};
+            rows[y].back().add(change);
+            for (std::size_t b = 0; b < bands_.size(); ++b) {
+                if (bands_[b].contains(eccentricity.values[i]))
+                    rows[y][b].add(change);
+            }
+        }
+    });
+    std::vector<Sum> sums(sums_.size());
+    for (const auto& row : rows) {
+        for (std::size_t b = 0; b < sums.size(); ++b)
+            sums[b].add(row[b]);
+    }
+    return sums;
 }
 
 std::vector<TemporalScore> TemporalScores::total() const {

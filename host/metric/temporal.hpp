@@ -51,7 +51,15 @@ class TemporalScores {
     struct Sum {
         std::size_t pixels = 0;
         double instability = 0.0, energy = 0.0;
+        void add(const Sum& other) {
+            pixels += other.pixels;
+            instability += other.instability;
+            energy += other.energy;
+        }
     };
+    /// From the frame before, of which `reference` and `test` are the lightness now.
+    std::vector<Sum> changes(const ScalarMap& reference, const ScalarMap& test,
+                             const ScalarMap& eccentricity, const MotionField* motion) const;
     std::vector<TemporalScore> scores_of(std::span<const Sum> sums) const;
 
     std::vector<Band> bands_;

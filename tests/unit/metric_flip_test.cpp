@@ -1,6 +1,6 @@
 // FLIP on pictures whose errors are known, and its laws.
+#include <array>
 #include <cmath>
-#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,25 +9,13 @@
 
 #include "host/metric/flip.hpp"
 #include "host/metric/pool.hpp"
+#include "tests/support/pictures.hpp"
 
 namespace macula::metric {
 namespace {
 
-Picture plain(std::uint32_t width, std::uint32_t height, float r, float g, float b) {
-    Picture picture{width, height, {}};
-    for (std::size_t i = 0; i < picture.pixels(); ++i)
-        picture.rgb.insert(picture.rgb.end(), {r, g, b});
-    return picture;
-}
-
-Picture noise(std::uint32_t width, std::uint32_t height, unsigned seed, float scale = 1.0f) {
-    std::minstd_rand random(seed);
-    std::uniform_real_distribution<float> uniform(0.0f, scale);
-    Picture picture{width, height, std::vector<float>(std::size_t{width} * height * 3)};
-    for (float& value : picture.rgb)
-        value = uniform(random);
-    return picture;
-}
+using test::noise;
+using test::plain;
 
 TEST(Flip, OfIdenticalPicturesIsZeroEverywhere) {
     const Picture picture = noise(61, 47, 1);
@@ -133,6 +121,24 @@ TEST(HdrFlip, ABlackReferenceHasOneExposure) {
     const Exposures e = find_exposures(plain(4, 4, 0, 0, 0));
     EXPECT_EQ(e.count, 1u);
     EXPECT_GT(pool(hdr_flip(plain(4, 4, 0, 0, 0), plain(4, 4, 1, 1, 1)).values).mean, 0.5);
+}
+
+TEST(HdrFlip, TheUpperOfTwoMiddlePixelsIsTheMedianAndBlackIsNone) {
+    Picture picture = plain(2, 1, 1.0f, 1.0f, 1.0f);
+    picture.rgb = {1.0f, 1.0f, 1.0f, 4.0f, 4.0f, 4.0f};
+    EXPECT_EQ(find_exposures(picture).stop, find_exposures(picture).start);
+    EXPECT_EQ(find_exposures(picture).count, 2u);
+    picture = plain(3, 1, 0.0f, 0.0f, 0.0f);
+    picture.rgb[0] = 1.0f;
+    EXPECT_EQ(find_exposures(picture).count, 21u) << "23 stops from 0.2126 to the step of a float";
+}
+
+TEST(HdrFlip, RefusesExposuresThatAreNone) {
+    const Picture picture = noise(4, 4, 9);
+    for (const Exposures& e :
+         {Exposures{1.0, 0.0, 2}, Exposures{0.0, 1.0, 0}, Exposures{0.0, 1.0, 1},
+          Exposures{0.0, 1.0, 100000}, Exposures{std::nan(""), 1.0, 2}})
+        EXPECT_THROW(hdr_flip(picture, picture, 67.02, e), std::invalid_argument);
 }
 
 } // namespace
