@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 namespace macula::metric {
 namespace {
 
-/// Both bounds of the exposures: white of the display that the pixel in question must not exceed
-/// (Andersson et al. 2021, section 3.2).
+/// Of the display's white: where the pixel that bounds the exposures comes to lie (Andersson et al.
+/// 2021, section 3).
 constexpr double kBright = 0.85;
 constexpr unsigned kMaxExposures = 512;
 
@@ -94,16 +94,15 @@ Exposures find_exposures(const Picture& reference, ToneMapper tone_mapper) {
     }
     std::sort(luminances.begin(), luminances.end());
     const double brightest = luminances.back();
-    const std::size_t half = luminances.size() / 2;
-    const double median = luminances.size() % 2 == 1
-                              ? luminances[half]
-                              : 0.5 * (double{luminances[half - 1]} + luminances[half]);
+    // As the authors' evaluator: the upper of two middle values, never below the step of a float at 1.
+    const double median =
+        std::max(luminances[luminances.size() / 2], std::numeric_limits<float>::epsilon());
     if (!(brightest > 0.0))
         return {0.0, 0.0, 1}; // black at every exposure
     const double bright = bright_input(curve_of(tone_mapper));
     Exposures result;
     result.start = std::log2(bright / brightest);
-    result.stop = median > 0.0 ? std::log2(bright / median) : result.start;
+    result.stop = std::max(result.start, std::log2(bright / median));
     const double count = std::ceil(result.stop - result.start);
     result.count = static_cast<unsigned>(std::clamp(count, 2.0, double{kMaxExposures}));
     return result;

@@ -49,6 +49,7 @@ shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width
     p.disk = o.disk;
     p.disk_tangent = std::tan(o.disk_degrees * std::numbers::pi_v<float> / 180.0f);
     p.fade = o.fade;
+    p.pitch = p.width + 2;
     p.capacity = shared::slot_count(width, height);
     return p;
 }

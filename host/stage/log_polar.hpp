@@ -32,7 +32,8 @@ class LogPolarBuffer {
     void prepare(const Kit& kit);
 
     const shared::LogPolarParams& params() const { return params_; }
-    std::uint64_t texels() const { return std::uint64_t{params_.width} * params_.height; }
+    // With the empty texels at the ends of its rows.
+    std::uint64_t texels() const { return std::uint64_t{params_.pitch} * params_.height; }
 
     compute::Buffer params_buffer;
 

@@ -82,14 +82,20 @@ static inline bool in_disk(global const FrameParams* frame, global const Fovea* 
 static inline uint choose_texels(global const FrameParams* frame,
                                  global const LogPolarParams* params, global const Fovea* fovea,
                                  uint packet, global float4* buffer) {
+    const uint width = params->width;
     uint column0, row0, bits = 0u;
-    pixel_of_slot(packet * MACULA_RAY_BLOCK, params->width, &column0, &row0);
+    pixel_of_slot(packet * MACULA_RAY_BLOCK, width, &column0, &row0);
     for (uint lane = 0u; lane < MACULA_RAY_BLOCK; ++lane) {
         const uint column = column0 + (lane & 3u), row = row0 + (lane >> 2);
-        if (column < fovea->first_column || column >= params->width || row >= params->height)
+        if (column >= width || row >= params->height)
+            continue;
+        global float4* texels = buffer + row * params->pitch;
+        if (column == 0u)
+            texels[0] = texels[width + 1u] = (float4)(0.0f);
+        if (column < fovea->first_column)
             continue;
         const Sample middle = sample_at(params, fovea, (float)column + 0.5f, (float)row + 0.5f);
-        buffer[row * params->width + column] = (float4)(0.0f);
+        texels[column + 1u] = (float4)(0.0f);
         bits |= reaches_image(frame, &middle) ? 1u << lane : 0u;
     }
     return bits;
@@ -172,7 +178,8 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
          bits &= bits - 1u, ++slot) {
         const uint lane = popcount((bits & -bits) - 1u);
         const uint column = x0 + (lane & 3u), row = y0 + (lane >> 2);
-        const uint place = (disk ? 0u : pixels) + row * across + column;
+        const uint place =
+            disk ? row * across + column : pixels + row * params->pitch + column + 1u;
         float dx, dy, x, y, spread = 1.0f;
         subpixel_offset(random_key(place, frame->frame, frame->seed), sample, frame->sample_grid,
                         &dx, &dy);

@@ -91,7 +91,7 @@
     MEMBER(LensParams, k)                                                                          \
     STRUCT(LogPolarParams)                                                                         \
     MEMBER(LogPolarParams, alpha)                                                                  \
-    MEMBER(LogPolarParams, capacity)                                                               \
+    MEMBER(LogPolarParams, pitch)                                                                  \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
     MEMBER(Fovea, first_column)

@@ -14,8 +14,10 @@ typedef struct LogPolarParams {
     float disk_tangent; /* ... or, above 0, the tangent of its angle */
     float fade;    /* part of the disk's radius within which it passes into what surrounds it */
     uint capacity; /* slots of the list of samples */
+    uint pitch;    /* of a row of the buffer: an empty texel, the columns, an empty texel */
+    uint pad[3];
 } LogPolarParams;
-MACULA_ASSERT_SIZE(LogPolarParams, 32);
+MACULA_ASSERT_SIZE(LogPolarParams, 48);
 
 /* Where the gaze meets the image; made on the device for each frame. */
 typedef struct Fovea {
