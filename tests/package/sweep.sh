@@ -15,14 +15,15 @@ macula: $build/macula
 scenes: [cornell]
 lights: [area]
 cases: {full: --methods full, weier: --methods weier, lowres: --methods lowres --equal samples}
-options: --size 96x96 --frames 2 --segments 1 --warm-up 1 --reference-spp 4 --gaze synthetic --head scene
+options: --size 96x96 --frames 2 --segments 1 --warm-up 1 --reference-spp 4 --gaze synthetic
+  --head scene
 report: --title Sweep
 CONFIG
 
 # sweep: runs what is missing and prints how many cases that were.
 sweep() {
-  if ! snakemake -s "$repository/bench/sweep/Snakefile" --configfile "$scratch/tiny.yaml" --cores 1 \
-    --directory "$scratch/sweep" >"$scratch/log" 2>&1; then
+  if ! snakemake -s "$repository/bench/sweep/Snakefile" --configfile "$scratch/tiny.yaml" \
+    --cores 1 --directory "$scratch/sweep" >"$scratch/log" 2>&1; then
     cat "$scratch/log" >&2
     tail -n 5 "$scratch"/sweep/results/*/*/*/log >&2 || true
     return 1
