@@ -24,12 +24,13 @@ struct QualityOptions {
     std::vector<std::string> scenes;      // of load_fly_through()
     std::vector<std::string> scene_path;  // folders
     std::vector<frame::LightMode> lights; // empty: area
-    std::vector<std::string> methods;     // full, weier, lowres; empty: all
-    std::vector<QualityRegion> regions;   // of weier, and of lowres that equals it; empty: medium
-    std::vector<std::uint32_t> spp;       // of full; empty: 1
-    std::vector<std::string> equal;       // of lowres: samples, time; empty: both
-    std::string display = "dk2";          // its middle eye is rendered
-    std::uint32_t width = 0, height = 0;  // pixels; 0: the display's
+    // Of method::methods(), with their defaults but for what follows; empty: full, weier, lowres.
+    std::vector<std::string> methods;
+    std::vector<QualityRegion> regions;  // of weier, and of lowres that equals it; empty: medium
+    std::vector<std::uint32_t> spp;      // of full; empty: 1
+    std::vector<std::string> equal;      // of lowres: samples, time; empty: both
+    std::string display = "dk2";         // its middle eye is rendered
+    std::uint32_t width = 0, height = 0; // pixels; 0: the display's
     // A recording with gaze and head (an importer's format); empty: that of wearer.hpp.
     std::filesystem::path trace;
     std::string gaze, tracker;        // as those of `macula render`; an empty gaze: the trace's

@@ -8,6 +8,7 @@
 
 #include "bench/quality_pictures.hpp"
 #include "bench/quality_scores.hpp"
+#include "host/method/method.hpp"
 #include "host/metric/statistics.hpp"
 
 namespace macula::bench {
@@ -45,6 +46,8 @@ void check_word(const char* option, const std::string& word,
 std::string QualityRequest::name() const {
     if (method == "full")
         return spp == 1 ? "full" : fmt::format("full, {} spp", spp);
+    if (!region)
+        return method;
     if (method == "weier")
         return "weier " + region->name;
     return region->name == "medium" ? fmt::format("lowres, equal {}", equal)
@@ -52,11 +55,11 @@ std::string QualityRequest::name() const {
 }
 
 std::vector<QualityRequest> quality_requests(const QualityOptions& options) {
-    const std::vector<std::string> all = {"full", "weier", "lowres"}, equals = {"samples", "time"};
-    const auto methods = or_default(options.methods, all);
+    const std::vector<std::string> equals = {"samples", "time"};
+    const auto methods = or_default(options.methods, {"full", "weier", "lowres"});
     const auto regions = or_default(options.regions, {{"medium", 10.0f, 20.0f, 0.05f}});
     for (const std::string& method : methods)
-        check_word("--methods", method, all);
+        method::find_method(method);
     for (const std::string& equal : options.equal)
         check_word("--equal", equal, equals);
     const auto asked = [&](const std::string& method) {
@@ -75,6 +78,10 @@ std::vector<QualityRequest> quality_requests(const QualityOptions& options) {
         for (const std::string& equal : or_default(options.equal, equals))
             requests.push_back({"lowres", 1, region, equal});
     }
+    for (const std::string& method : methods) {
+        if (method != "full" && method != "weier" && method != "lowres")
+            requests.push_back({method, 1, std::nullopt, ""});
+    }
     return requests;
 }
 
@@ -89,10 +96,10 @@ report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     result.method = request.method;
     result.name = request.name();
     report::Parameters& p = result.parameters;
-    if (request.method == "full") {
+    if (request.method == "full")
         p.spp = request.spp;
+    if (!request.region)
         return result;
-    }
     p.frc = request.region->name;
     p.p_min = request.region->p_min;
     p.r0 = finite(request.region->r0);

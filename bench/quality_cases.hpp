@@ -12,7 +12,7 @@ namespace macula::bench {
 
 // One method with its parameters.
 struct QualityRequest {
-    std::string method;                  // full, weier, lowres
+    std::string method;                  // of method::methods()
     std::uint32_t spp = 1;               // of full
     std::optional<QualityRegion> region; // of weier; of lowres that of the weier which it equals
     std::string equal;                   // of lowres: samples or time

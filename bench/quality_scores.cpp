@@ -48,10 +48,11 @@ metric::ScalarMap QualityScores::add(const QualityFlight::Spot& spot,
     ssim_.add(metric::ssim(reference.converged, test));
     add_bands(flip, eccentricity);
 
-    const metric::ScalarMap beside_full = metric::flip(reference.full, test, pixels_per_degree_);
+    const metric::ScalarMap beside_full =
+        test.rgb == reference.full.rgb // as those of `full` itself are
+            ? metric::ScalarMap(test.width, test.height)
+            : metric::flip(reference.full, test, pixels_per_degree_);
     full_flip_.add(mean_of(beside_full));
-    full_foveated_flip_.add(
-        mean_of(metric::foveated_flip(reference.full, test, eccentricity, density_)));
     for (std::size_t i = 0; i < beside_full.values.size(); ++i) {
         if (eccentricity.values[i] < r0_)
             full_inside_.add(beside_full.values[i]);
@@ -106,8 +107,7 @@ void QualityScores::fill(report::QualityCase& result) const {
     scores.ssim = ssim_.value().value_or(0.0);
     scores.flicker_energy = energy_.value();
     scores.instability = instability_.value();
-    result.against_full = {full_flip_.value().value_or(0.0),
-                           full_foveated_flip_.value().value_or(0.0), r0_, full_inside_.value()};
+    result.against_full = {full_flip_.value().value_or(0.0), r0_, full_inside_.value()};
     for (std::size_t b = 0; b < bands_.size(); ++b)
         result.bands.push_back({bands_[b].name, bands_[b].from, bands_[b].to,
                                 band_flip_[b].count / static_cast<double>(flip_.size()),

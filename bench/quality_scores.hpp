@@ -44,7 +44,7 @@ class QualityScores {
     metric::ScalarMap density_;
     std::vector<metric::Band> bands_;
     std::vector<float> flip_, foveated_flip_; // of all pixels of all frames
-    Mean mse_, ssim_, full_flip_, full_foveated_flip_, full_inside_;
+    Mean mse_, ssim_, full_flip_, full_inside_;
     std::vector<Mean> curve_; // by steps of eccentricity
     std::vector<Mean> band_flip_, band_energy_, band_instability_;
     std::optional<metric::TemporalScores> temporal_; // of the stretch

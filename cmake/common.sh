@@ -13,7 +13,7 @@ build_packages=(
 )
 test_packages=(libgtest-dev libgmock-dev)
 check_packages=(oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3-venv
-  chromium)
+  chromium snakemake)
 
 say() { printf '%s: %s\n' "$program" "$*"; }
 

@@ -49,7 +49,7 @@ void add_what(CLI::App& command, Options& options) {
         ->delimiter(',');
     command
         .add_option("--methods", q.methods,
-                    "full, weier, lowres, separated by commas (default: all)")
+                    "Names of `macula explain`, separated by commas (default: full, weier, lowres)")
         ->delimiter(',');
     command.add_option("--frc", options.regions,
                        "Foveal regions of weier, and of lowres beside it: small, medium, large, "

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "host/app/command.hpp"
+#include "host/output/jpeg.hpp"
 #include "host/report/page.hpp"
 #include "host/report/results_file.hpp"
 
@@ -22,6 +23,7 @@ using namespace macula;
 struct Options {
     std::vector<std::filesystem::path> results;
     std::filesystem::path out = "report.html";
+    int jpeg = 0; // quality; 0: the files as they are
     std::string title = "Macula: quality against time";
 };
 
@@ -46,7 +48,12 @@ int run(const Options& options) {
     std::vector<report::Results> results;
     for (const std::filesystem::path& file : options.results)
         results.push_back({file, report::read_results(file)});
-    write(options.out, report::page(results, options.title));
+    report::Load load = report::load_picture;
+    if (options.jpeg != 0)
+        load = [&](const std::filesystem::path& file) {
+            return output::as_jpeg(file, options.jpeg);
+        };
+    write(options.out, report::page(results, options.title, load));
     std::size_t cases = 0;
     for (const report::Results& part : results)
         cases += part.cases.size();
@@ -62,6 +69,11 @@ app::Run add(CLI::App& command) {
                     "Files of JSON lines that `macula bench quality` wrote")
         ->required();
     command.add_option("-o,--out", options->out, "The page")->capture_default_str();
+    command
+        .add_option("--jpeg", options->jpeg,
+                    "Quality, 1 to 100: the pictures as JPEG, which makes the page small (default: "
+                    "the files as they are)")
+        ->check(CLI::Range(1, 100));
     command.add_option("--title", options->title, "Its heading")->capture_default_str();
     return [options] { return run(*options); };
 }

@@ -41,7 +41,8 @@ function label_place(taken, x, y, text, plot) {
   };
   const cost = (place) => {
     const [l, t, r, b] = box(place);
-    const outside = Math.max(0, r - plot.right) + Math.max(0, 60 - l) + Math.max(0, b - plot.bottom);
+    const outside =
+      Math.max(0, r - plot.right) + Math.max(0, 60 - l) + Math.max(0, b - plot.bottom);
     return outside * 20 + taken.reduce((sum, [l2, t2, r2, b2]) => sum +
       Math.max(0, Math.min(r, r2) - Math.max(l, l2)) *
       Math.max(0, Math.min(b, b2) - Math.max(t, t2)), 0);

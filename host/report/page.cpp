@@ -55,6 +55,8 @@ std::string escape_script(const std::string& json) {
 // The pictures of the page: each file once, under a number, so that no path enters the page.
 class Images {
   public:
+    explicit Images(const Load& load) : load_(load) {}
+
     // `what`: for messages.
     std::string add(const fs::path& folder, const std::string& name, const std::string& what) {
         const fs::path relative(name);
@@ -72,32 +74,26 @@ class Images {
     const Json& all() const { return all_; }
 
   private:
-    static std::string read(const fs::path& path, const std::string& what) {
-        std::error_code error;
-        const std::uintmax_t size = fs::file_size(path, error);
-        if (error)
-            throw std::runtime_error(
-                fmt::format("{} '{}': {}", what, path.string(), error.message()));
-        if (size > kGreatestPicture)
-            throw std::runtime_error(
-                fmt::format("{} '{}': larger than 32 MiB", what, path.string()));
-        std::string content(size, '\0');
-        std::ifstream stream(path, std::ios::binary);
-        if (!stream.read(content.data(), static_cast<std::streamsize>(size)))
-            throw std::runtime_error(fmt::format("{} '{}': cannot be read", what, path.string()));
-        std::string uri = data_uri(content);
+    std::string read(const fs::path& path, const std::string& what) const {
+        std::string uri;
+        try {
+            uri = data_uri(load_(path));
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fmt::format("{}: {}", what, error.what()));
+        }
         if (uri.empty())
             throw std::runtime_error(
                 fmt::format("{} '{}': neither PNG, JPEG nor WebP", what, path.string()));
         return uri;
     }
 
+    const Load& load_;
     std::map<std::string, std::string> numbers_; // by path
     Json all_ = Json::object();
 };
 
-Json data(const std::vector<Results>& results) {
-    Images images;
+Json data(const std::vector<Results>& results, const Load& load) {
+    Images images(load);
     Json cases = Json::array();
     for (const Results& part : results) {
         const fs::path folder = part.file.parent_path();
@@ -147,11 +143,25 @@ std::string script() {
 
 } // namespace
 
-std::string page(const std::vector<Results>& results, const std::string& title) {
+std::string load_picture(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error)
+        throw std::runtime_error(fmt::format("'{}': {}", path.string(), error.message()));
+    if (size > kGreatestPicture)
+        throw std::runtime_error(fmt::format("'{}': larger than 32 MiB", path.string()));
+    std::string content(size, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(content.data(), static_cast<std::streamsize>(size)))
+        throw std::runtime_error(fmt::format("'{}': cannot be read", path.string()));
+    return content;
+}
+
+std::string page(const std::vector<Results>& results, const std::string& title, const Load& load) {
     return fill_in(file("page.html"),
                    {{"@TITLE@", escape_html(title)},
                     {"@STYLE@", std::string(file("style.css"))},
-                    {"@RESULTS@", escape_script(data(results).dump(-1, ' ', true))},
+                    {"@RESULTS@", escape_script(data(results, load).dump(-1, ' ', true))},
                     {"@SCRIPT@", script()}});
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,15 @@ struct Results {
     std::vector<QualityCase> cases;
 };
 
+// What of a picture's file goes into the page. Throws std::runtime_error.
+using Load = std::function<std::string(const std::filesystem::path&)>;
+
+// The content as it is; at most 32 MiB.
+std::string load_picture(const std::filesystem::path& file);
+
 // The page. Throws std::runtime_error that names file, case and picture where one is missing, lies
-// outside the folder, is larger than 32 MiB or is none of PNG, JPEG and WebP.
-std::string page(const std::vector<Results>& results, const std::string& title);
+// outside the folder, cannot be loaded or is none of PNG, JPEG and WebP.
+std::string page(const std::vector<Results>& results, const std::string& title,
+                 const Load& load = load_picture);
 
 } // namespace macula::report

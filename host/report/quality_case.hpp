@@ -38,7 +38,7 @@ struct Scores {
 
 // Against the frames of `full` with one sample a pixel, whose aliasing the reference has not.
 struct AgainstFull {
-    double flip = 0.0, foveated_flip = 0.0;
+    double flip = 0.0;
     double r0 = 0.0;                      // degrees
     std::optional<double> flip_inside_r0; // mean where the eccentricity is less; none: no pixel
 };

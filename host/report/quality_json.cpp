@@ -76,7 +76,6 @@ void visit(Visitor& v, T& r) {
         v("instability", r.instability);
     } else if constexpr (std::is_same_v<Type, AgainstFull>) {
         v("flip", r.flip);
-        v("foveated_flip", r.foveated_flip);
         v("r0", r.r0);
         v("flip_inside_r0", r.flip_inside_r0);
     } else if constexpr (std::is_same_v<Type, Band>) {

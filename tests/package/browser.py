@@ -24,7 +24,7 @@ PATIENCE_S = 60
 
 
 class Browser:
-    """Chromium behind its debugging pipe: JSON messages that end with a NUL, on descriptors 3, 4."""
+    """Chromium behind its debugging pipe: JSON messages that end with a NUL."""
 
     def __init__(self, program, profile):
         to_read, self.to_write = os.pipe()

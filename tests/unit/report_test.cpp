@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "host/output/image.hpp"
+#include "host/output/jpeg.hpp"
 #include "host/report/data_uri.hpp"
 #include "host/report/page.hpp"
 #include "host/report/results_file.hpp"
@@ -146,6 +148,26 @@ TEST_F(Report, AWrongPictureIsNamed) {
     EXPECT_THAT(complaint_of_picture("text.png"), HasSubstr("neither PNG"));
     for (const char* outside : {"", "../p.png", "a/../../p.png", "/etc/hostname"})
         EXPECT_THAT(complaint_of_picture(outside), HasSubstr("below the folder")) << outside;
+}
+
+TEST_F(Report, APictureBecomesASmallJpegOfTheSameSize) {
+    std::vector<float> rgb(3 * 64 * 48);
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+        rgb[i] = static_cast<float>(i * 7919 % 256) / 255.0f;
+    output::write_png(folder_ / "p.png", 64, 48, rgb, 3, 1.0f, {});
+    const std::string high = output::as_jpeg(folder_ / "p.png", 100);
+    const std::string low = output::as_jpeg(folder_ / "p.png", 20);
+    EXPECT_THAT(report::data_uri(low), ::testing::StartsWith("data:image/jpeg;base64,"));
+    EXPECT_LT(low.size(), high.size());
+    EXPECT_THAT(low, ::testing::EndsWith("\xff\xd9"));
+    // Baseline frame header: length 17, 8 bits, 48 rows, 64 columns, 3 components.
+    EXPECT_THAT(low, HasSubstr(std::string("\xff\xc0\0\x11\x08\0\x30\0\x40\x03", 10)));
+    EXPECT_THROW(output::as_jpeg(folder_ / "p.png", 0), std::invalid_argument);
+    EXPECT_THAT(complaint([&] { output::as_jpeg(folder_ / "none.png", 90); }),
+                HasSubstr("none.png"));
+    write("text.png", "no picture");
+    EXPECT_THAT(complaint([&] { output::as_jpeg(folder_ / "text.png", 90); }),
+                HasSubstr("text.png"));
 }
 
 TEST(ReportBase64, GivesTheVectorsOfRfc4648) {
