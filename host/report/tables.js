@@ -93,6 +93,7 @@ function equal_table(groups) {
     { title: "lowres with equal", get: (row) => row.low.parameters.equal },
     { title: "ms", get: (row) => `${number(row.ours.time_ms.median)} and ` +
                                  number(row.low.time_ms.median) },
+    { title: "time ratio", get: (row) => row.low.parameters.time_ratio, plain: true },
     { title: "foveated FLIP", get: pair((c) => c.scores.foveated_flip.mean) },
     { title: "flicker energy", get: pair((c) => c.scores.flicker_energy) },
     { title: "instability", get: pair((c) => c.scores.instability) },
