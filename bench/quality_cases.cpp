@@ -24,9 +24,14 @@ report::Percentiles percentiles(const std::vector<double>& values) {
             metric::percentile(values, 0.99)};
 }
 
+// 0.05 and not 0.05000000074505806.
+double short_double(float value) {
+    return std::stod(fmt::format("{}", value));
+}
+
 // JSON has no infinity.
 std::optional<double> finite(float degrees) {
-    return std::isfinite(degrees) ? std::optional<double>(degrees) : std::nullopt;
+    return std::isfinite(degrees) ? std::optional(short_double(degrees)) : std::nullopt;
 }
 
 template <class T>
@@ -101,7 +106,7 @@ report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     if (!request.region)
         return result;
     p.frc = request.region->name;
-    p.p_min = request.region->p_min;
+    p.p_min = short_double(request.region->p_min);
     p.r0 = finite(request.region->r0);
     p.r1 = finite(request.region->r1);
     if (request.method == "lowres") {

@@ -39,6 +39,7 @@ function time_table(cases, front) {
       get: (c) => full ? full.time_ms.median / c.time_ms.median : null },
     { title: "wall ms", get: (c) => c.wall_ms.median },
     { title: "samples a pixel", get: (c) => c.samples / (c.width * c.height), plain: true },
+    { title: "scale", get: (c) => c.parameters.scale, plain: true },
     { title: "million rays", get: (c) => c.rays / 1e6, plain: true },
   ]);
 }
