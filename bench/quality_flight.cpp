@@ -113,26 +113,34 @@ render::FrameReport QualityFlight::render(render::Renderer& renderer, std::uint3
     return renderer.render(frame, view.camera, view.gaze);
 }
 
-Sequence QualityFlight::fly(render::Renderer& renderer) const {
+std::vector<Sequence> QualityFlight::fly(std::span<render::Renderer> renderers) const {
     const Schedule schedule(options_.frames, options_.segments, options_.warm_up,
                             scene_.path.frames);
-    Sequence sequence;
-    StageTimes stages;
-    render(renderer, schedule.first(0));
+    std::vector<Sequence> sequences(renderers.size());
+    std::vector<StageTimes> stages(renderers.size());
+    for (render::Renderer& renderer : renderers)
+        render(renderer, schedule.first(0));
     for (std::uint32_t segment = 0; segment < schedule.segments(); ++segment) {
         const std::uint32_t first = schedule.first(segment), end = first + schedule.count(segment);
-        renderer.reset();
-        for (std::uint32_t frame = first - schedule.warm_up(); frame < first; ++frame)
-            render(renderer, frame);
+        for (render::Renderer& renderer : renderers) {
+            renderer.reset();
+            for (std::uint32_t frame = first - schedule.warm_up(); frame < first; ++frame)
+                render(renderer, frame);
+        }
         for (std::uint32_t frame = first; frame < end; ++frame) {
-            add(sequence, stages, render(renderer, frame));
-            sequence.pictures.push_back(copy_colour(renderer));
+            for (std::size_t turn = 0; turn < renderers.size(); ++turn) {
+                const std::size_t i = frame % 2 == 0 ? turn : renderers.size() - 1 - turn;
+                add(sequences[i], stages[i], render(renderers[i], frame));
+                sequences[i].pictures.push_back(copy_colour(renderers[i]));
+            }
         }
     }
-    sequence.samples /= options_.frames;
-    sequence.rays /= options_.frames;
-    sequence.stages = stages.rows();
-    return sequence;
+    for (std::size_t i = 0; i < renderers.size(); ++i) {
+        sequences[i].samples /= options_.frames;
+        sequences[i].rays /= options_.frames;
+        sequences[i].stages = stages[i].rows();
+    }
+    return sequences;
 }
 
 std::vector<QualityFlight::Spot> QualityFlight::spots() const {
