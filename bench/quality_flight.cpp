@@ -171,8 +171,9 @@ report::QualityCase QualityFlight::blank() const {
     blank.head = head_name_;
     const scene::EyeView& eye = display_.eye(scene::Eye::mono);
     blank.view = {eye.tan_left, eye.tan_right, eye.tan_up, eye.tan_down};
-    blank.pixels_per_degree = scene::pixels_per_degree(display_, scene::Eye::mono,
-                                                       0.5 * display_.width, 0.5 * display_.height);
+    double x = 0.0, y = 0.0; // on the view axis, as `macula compare --display` takes it
+    scene::project(display_, scene::Eye::mono, glm::dvec3(0.0, 0.0, -1.0), x, y);
+    blank.pixels_per_degree = scene::pixels_per_degree(display_, scene::Eye::mono, x, y);
     blank.device = on_device_->device.facts().name;
     blank.driver = on_device_->device.facts().driver_version;
     blank.commit = MACULA_COMMIT;
