@@ -15,7 +15,7 @@ namespace macula::bench {
 namespace {
 
 constexpr double kEqualTime = 0.03; // part by which the time of lowres may differ
-constexpr int kTries = 4;
+constexpr int kTries = 5;
 constexpr double kLeastScale = 0.02;
 constexpr double kDefaultR0 = 10.0; // degrees, of methods without a region
 
@@ -24,9 +24,14 @@ report::Percentiles percentiles(const std::vector<double>& values) {
             metric::percentile(values, 0.99)};
 }
 
+// 0.05 and not 0.05000000074505806.
+double short_double(float value) {
+    return std::stod(fmt::format("{}", value));
+}
+
 // JSON has no infinity.
 std::optional<double> finite(float degrees) {
-    return std::isfinite(degrees) ? std::optional<double>(degrees) : std::nullopt;
+    return std::isfinite(degrees) ? std::optional(short_double(degrees)) : std::nullopt;
 }
 
 template <class T>
@@ -101,7 +106,7 @@ report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     if (!request.region)
         return result;
     p.frc = request.region->name;
-    p.p_min = request.region->p_min;
+    p.p_min = short_double(request.region->p_min);
     p.r0 = finite(request.region->r0);
     p.r1 = finite(request.region->r1);
     if (request.method == "lowres") {
@@ -111,8 +116,8 @@ report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     return result;
 }
 
-Sequence QualityGroup::fly(const QualityRequest& request, double scale) const {
-    render::Renderer renderer = flight_.make(lights_, [&](render::Options& engine) {
+render::Renderer QualityGroup::make(const QualityRequest& request, double scale) const {
+    return flight_.make(lights_, [&](render::Options& engine) {
         engine.method = request.method;
         engine.samples_per_pixel = request.spp;
         engine.lowres_scale = static_cast<float>(scale);
@@ -122,35 +127,40 @@ Sequence QualityGroup::fly(const QualityRequest& request, double scale) const {
             engine.weier.p_min = request.region->p_min;
         }
     });
-    return flight_.fly(renderer);
 }
 
-QualityGroup::Cost QualityGroup::cost_of_weier(const QualityRegion& region) {
-    if (const auto known = weier_.find(region.name); known != weier_.end())
-        return known->second;
-    const Sequence sequence = fly({"weier", 1, region, ""}, 1.0);
-    return weier_[region.name] = {sequence.samples, metric::median(sequence.ms())};
-}
-
-double QualityGroup::scale_for_samples(const Cost& cost) const {
+Sequence QualityGroup::fly_equal(const QualityRequest& request, report::Parameters& parameters) {
+    const std::string& region = request.region->name;
+    if (!weier_samples_.contains(region)) {
+        render::Renderer weier = make({"weier", 1, request.region, ""}, 1.0);
+        weier_samples_[region] = flight_.fly({&weier, 1}).front().samples;
+    }
     const scene::Display& display = flight_.display();
     const double pixels = static_cast<double>(display.width) * display.height;
-    return std::clamp(std::sqrt(cost.samples / pixels), kLeastScale, 1.0);
+    parameters.scale = std::clamp(std::sqrt(weier_samples_[region] / pixels), kLeastScale, 1.0);
+    if (request.equal == "time")
+        return fly_equal_time(request, parameters);
+    render::Renderer lowres = make(request, *parameters.scale);
+    return std::move(flight_.fly({&lowres, 1}).front());
 }
 
 // The time grows with the samples, and has a part that does not: a few steps come close.
-double QualityGroup::scale_for_time(const QualityRequest& request, const Cost& cost) const {
-    double scale = scale_for_samples(cost);
-    for (int i = 0; i < kTries; ++i) {
-        const double ms = metric::median(fly(request, scale).ms());
-        const double better = std::clamp(scale * std::sqrt(cost.ms / ms), kLeastScale, 1.0);
-        progress_.note(fmt::format("{}, {}: scale {:.3f} takes {:.2f} ms of {:.2f}", flight_.name(),
-                                   request.name(), scale, ms, cost.ms));
-        if (std::fabs(ms / cost.ms - 1.0) < kEqualTime || better == scale)
-            break;
-        scale = better;
+Sequence QualityGroup::fly_equal_time(const QualityRequest& request,
+                                      report::Parameters& parameters) {
+    for (int tries = 1;; ++tries) {
+        std::vector<render::Renderer> both;
+        both.push_back(make({"weier", 1, request.region, ""}, 1.0));
+        both.push_back(make(request, *parameters.scale));
+        std::vector<Sequence> flown = flight_.fly(both);
+        const double ratio = metric::median(metric::ratios(flown[1].ms(), flown[0].ms()));
+        parameters.time_ratio = ratio;
+        progress_.note(fmt::format("{}, {}: at scale {:.3f} {:.2f} of the time", flight_.name(),
+                                   request.name(), *parameters.scale, ratio));
+        const double better = std::clamp(*parameters.scale / std::sqrt(ratio), kLeastScale, 1.0);
+        if (std::fabs(ratio - 1.0) < kEqualTime || better == *parameters.scale || tries == kTries)
+            return std::move(flown[1]);
+        parameters.scale = better;
     }
-    return scale;
 }
 
 void QualityGroup::score(report::QualityCase& result, const Sequence& sequence) {
@@ -170,13 +180,13 @@ void QualityGroup::score(report::QualityCase& result, const Sequence& sequence) 
 
 report::QualityCase QualityGroup::run(const QualityRequest& request) {
     report::QualityCase result = blank(request);
-    double scale = 1.0;
+    Sequence sequence;
     if (request.method == "lowres") {
-        const Cost cost = cost_of_weier(*request.region);
-        scale = request.equal == "time" ? scale_for_time(request, cost) : scale_for_samples(cost);
-        result.parameters.scale = scale;
+        sequence = fly_equal(request, result.parameters);
+    } else {
+        render::Renderer renderer = make(request, 1.0);
+        sequence = std::move(flight_.fly({&renderer, 1}).front());
     }
-    const Sequence sequence = fly(request, scale);
     result.clock = sequence.has_device_clock() ? "device" : "wall";
     result.time_ms = percentiles(sequence.ms());
     result.wall_ms = percentiles(sequence.wall_ms);
@@ -184,7 +194,7 @@ report::QualityCase QualityGroup::run(const QualityRequest& request) {
     result.samples = sequence.samples;
     result.rays = sequence.rays;
     if (request.method == "weier")
-        weier_[request.region->name] = {sequence.samples, result.time_ms.median};
+        weier_samples_[request.region->name] = sequence.samples;
     progress_.note(fmt::format("{}, {}: scores", flight_.name(), request.name()));
     score(result, sequence);
     result.series.ms = sequence.ms();

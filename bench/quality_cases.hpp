@@ -35,17 +35,10 @@ class QualityGroup {
     report::QualityCase run(const QualityRequest& request);
 
   private:
-    // What lowres must equal.
-    struct Cost {
-        double samples = 0.0; // a frame
-        double ms = 0.0;      // median
-    };
-
-    Sequence fly(const QualityRequest& request, double scale) const;
-    // Of weier with this region; measured unless it ran already.
-    Cost cost_of_weier(const QualityRegion& region);
-    double scale_for_samples(const Cost& cost) const;
-    double scale_for_time(const QualityRequest& request, const Cost& cost) const;
+    render::Renderer make(const QualityRequest& request, double scale) const;
+    // lowres with a region: as many samples as weier takes, or, from there, as much time.
+    Sequence fly_equal(const QualityRequest& request, report::Parameters& parameters);
+    Sequence fly_equal_time(const QualityRequest& request, report::Parameters& parameters);
     void score(report::QualityCase& result, const Sequence& sequence);
 
     const QualityFlight& flight_;
@@ -53,7 +46,7 @@ class QualityGroup {
     frame::LightMode lights_;
     const QualityProgress& progress_;
     References references_;
-    std::map<std::string, Cost> weier_; // by region
+    std::map<std::string, double> weier_samples_; // a frame, by region
 };
 
 } // namespace macula::bench

@@ -113,26 +113,34 @@ render::FrameReport QualityFlight::render(render::Renderer& renderer, std::uint3
     return renderer.render(frame, view.camera, view.gaze);
 }
 
-Sequence QualityFlight::fly(render::Renderer& renderer) const {
+std::vector<Sequence> QualityFlight::fly(std::span<render::Renderer> renderers) const {
     const Schedule schedule(options_.frames, options_.segments, options_.warm_up,
                             scene_.path.frames);
-    Sequence sequence;
-    StageTimes stages;
-    render(renderer, schedule.first(0));
+    std::vector<Sequence> sequences(renderers.size());
+    std::vector<StageTimes> stages(renderers.size());
+    for (render::Renderer& renderer : renderers)
+        render(renderer, schedule.first(0));
     for (std::uint32_t segment = 0; segment < schedule.segments(); ++segment) {
         const std::uint32_t first = schedule.first(segment), end = first + schedule.count(segment);
-        renderer.reset();
-        for (std::uint32_t frame = first - schedule.warm_up(); frame < first; ++frame)
-            render(renderer, frame);
+        for (render::Renderer& renderer : renderers) {
+            renderer.reset();
+            for (std::uint32_t frame = first - schedule.warm_up(); frame < first; ++frame)
+                render(renderer, frame);
+        }
         for (std::uint32_t frame = first; frame < end; ++frame) {
-            add(sequence, stages, render(renderer, frame));
-            sequence.pictures.push_back(copy_colour(renderer));
+            for (std::size_t turn = 0; turn < renderers.size(); ++turn) {
+                const std::size_t i = frame % 2 == 0 ? turn : renderers.size() - 1 - turn;
+                add(sequences[i], stages[i], render(renderers[i], frame));
+                sequences[i].pictures.push_back(copy_colour(renderers[i]));
+            }
         }
     }
-    sequence.samples /= options_.frames;
-    sequence.rays /= options_.frames;
-    sequence.stages = stages.rows();
-    return sequence;
+    for (std::size_t i = 0; i < renderers.size(); ++i) {
+        sequences[i].samples /= options_.frames;
+        sequences[i].rays /= options_.frames;
+        sequences[i].stages = stages[i].rows();
+    }
+    return sequences;
 }
 
 std::vector<QualityFlight::Spot> QualityFlight::spots() const {
@@ -163,8 +171,9 @@ report::QualityCase QualityFlight::blank() const {
     blank.head = head_name_;
     const scene::EyeView& eye = display_.eye(scene::Eye::mono);
     blank.view = {eye.tan_left, eye.tan_right, eye.tan_up, eye.tan_down};
-    blank.pixels_per_degree = scene::pixels_per_degree(display_, scene::Eye::mono,
-                                                       0.5 * display_.width, 0.5 * display_.height);
+    double x = 0.0, y = 0.0; // on the view axis, as `macula compare --display` takes it
+    scene::project(display_, scene::Eye::mono, glm::dvec3(0.0, 0.0, -1.0), x, y);
+    blank.pixels_per_degree = scene::pixels_per_degree(display_, scene::Eye::mono, x, y);
     blank.device = on_device_->device.facts().name;
     blank.driver = on_device_->device.facts().driver_version;
     blank.commit = MACULA_COMMIT;

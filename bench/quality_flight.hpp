@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,9 @@ class QualityFlight {
     render::FrameReport render(render::Renderer& renderer, std::uint32_t frame) const;
 
     // Each stretch begins with a reset and its warm-up. The first frame of all builds kernels and
-    // is rendered once more before.
-    Sequence fly(render::Renderer& renderer) const;
+    // is rendered once more before. Several renderers take their frames in turn, in an order that
+    // changes from frame to frame, so that what slows the machine for a while slows all.
+    std::vector<Sequence> fly(std::span<render::Renderer> renderers) const;
 
     // The measured frames in order; whether each is the first of its stretch.
     struct Spot {

@@ -83,6 +83,8 @@ struct Parameters {
     std::optional<double> scale;         // of lowres, along each axis
     // lowres: "samples" or "time", and the case that has as many or takes as long.
     std::optional<std::string> equal, equal_to;
+    // Of equal time: its ms by the other's, median over frames that were rendered in turn.
+    std::optional<double> time_ratio;
 };
 
 struct QualityCase {
@@ -90,7 +92,7 @@ struct QualityCase {
     std::string name; // of method and parameters, for people; "case" in JSON
     Parameters parameters;
     std::uint32_t width = 0, height = 0, frames = 0, segments = 0, warm_up = 0;
-    std::uint32_t first_frame = 0, reference_spp = 0, seed = 0;
+    std::uint32_t reference_spp = 0, seed = 0;
     std::uint32_t light_samples = 0, ambient_occlusion_samples = 0;
     std::string display, gaze, head;
     View view;

@@ -117,6 +117,7 @@ void visit(Visitor& v, T& r) {
         v("scale", r.scale);
         v("equal", r.equal);
         v("equal_to", r.equal_to);
+        v("time_ratio", r.time_ratio);
     }
 }
 
@@ -132,7 +133,6 @@ void visit_request(Visitor& v, T& r) {
     v("frames", r.frames);
     v("segments", r.segments);
     v("warm_up", r.warm_up);
-    v("first_frame", r.first_frame);
     v("reference_spp", r.reference_spp);
     v("seed", r.seed);
     v("light_samples", r.light_samples);
@@ -285,8 +285,10 @@ std::string identity(const QualityCase& result) {
     Writer writer{json};
     visit_request(writer, result);
     Parameters asked = result.parameters;
-    if (asked.equal)
-        asked.scale.reset(); // it is found, not asked for
+    if (asked.equal) { // these are found, not asked for
+        asked.scale.reset();
+        asked.time_ratio.reset();
+    }
     writer("parameters", asked);
     return json.dump(-1, ' ', true);
 }

@@ -39,6 +39,7 @@ function time_table(cases, front) {
       get: (c) => full ? full.time_ms.median / c.time_ms.median : null },
     { title: "wall ms", get: (c) => c.wall_ms.median },
     { title: "samples a pixel", get: (c) => c.samples / (c.width * c.height), plain: true },
+    { title: "scale", get: (c) => c.parameters.scale, plain: true },
     { title: "million rays", get: (c) => c.rays / 1e6, plain: true },
   ]);
 }
@@ -93,6 +94,7 @@ function equal_table(groups) {
     { title: "lowres with equal", get: (row) => row.low.parameters.equal },
     { title: "ms", get: (row) => `${number(row.ours.time_ms.median)} and ` +
                                  number(row.low.time_ms.median) },
+    { title: "time ratio", get: (row) => row.low.parameters.time_ratio, plain: true },
     { title: "foveated FLIP", get: pair((c) => c.scores.foveated_flip.mean) },
     { title: "flicker energy", get: pair((c) => c.scores.flicker_energy) },
     { title: "instability", get: pair((c) => c.scores.instability) },

@@ -98,6 +98,9 @@ TEST_F(BenchQuality, EveryMethodHasAllFiguresAndTheirOrderIsRight) {
     EXPECT_GT(samples.against_full.flip_inside_r0, 0.0);
     EXPECT_NEAR(samples.samples / weier.samples, 1.0, 0.1);
     EXPECT_EQ(samples.parameters.equal_to, weier.name);
+    EXPECT_EQ(samples.parameters.time_ratio, std::nullopt);
+    EXPECT_GT(cases[3].parameters.time_ratio.value(), 0.0);
+    EXPECT_GT(cases[3].parameters.scale.value(), 0.0);
 
     const auto back = report::read_results(options.results);
     ASSERT_EQ(back.size(), 4U);
@@ -210,6 +213,11 @@ TEST_F(BenchQuality, WhatMakesNoSenseIsRefused) {
     refused([](QualityOptions& o) { o.equal = {"beauty"}; });
     refused([](QualityOptions& o) { o.gaze = "udp:0"; });
     refused([](QualityOptions& o) { o.display = "no such display"; });
+    refused([](QualityOptions& o) { o.tracker = "latency=-1"; });
+    QualityOptions options = small();
+    options.gaze = "";
+    options.trace = "no such trace.csv";
+    EXPECT_THROW(run_quality(options, {}), std::runtime_error);
 }
 
 } // namespace
