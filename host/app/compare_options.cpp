@@ -121,10 +121,13 @@ CompareView::CompareView(const CompareOptions& options, std::uint32_t width, std
         refuse("--foveated-heatmap", options.foveated_heat_map, "it needs --gaze");
 }
 
-metric::View CompareView::at(std::uint32_t frame) {
-    const scene::GazeSample sample = gaze_->at(std::llround(frame * (1e9 / display_.refresh_hz)));
-    return {metric::eccentricity_map(display_, eye_, sample.of(eye_)),
+metric::View CompareView::looking_at(const glm::dvec3& direction) const {
+    return {metric::eccentricity_map(display_, eye_, direction),
             metric::density_map(display_, eye_)};
+}
+
+glm::dvec3 CompareView::direction(std::uint32_t frame) {
+    return gaze_->at(std::llround(frame * (1e9 / display_.refresh_hz))).of(eye_);
 }
 
 metric::ScoreOptions score_options(const CompareOptions& options, double pixels_per_degree) {

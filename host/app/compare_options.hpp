@@ -36,8 +36,10 @@ class CompareView {
     const char* pixels_per_degree_source() const { return source_; }
     const scene::Display& display() const { return display_; }
     bool has_gaze() const { return gaze_ != nullptr; }
-    /// Where the eye looks in a frame. Needs a gaze.
-    metric::View at(std::uint32_t frame);
+    /// What the eye sees in a frame, looking at `direction` (head space).
+    metric::View looking_at(const glm::dvec3& direction) const;
+    /// Where it looks in a frame. Needs a gaze.
+    glm::dvec3 direction(std::uint32_t frame);
 
   private:
     scene::Display display_;

@@ -105,6 +105,8 @@ std::string compare_json(const Compared& result, const CompareOptions& options) 
         json["per_frame"] = ordered_json::array();
         for (const ComparedFrame& frame : result.frames) {
             ordered_json entry{{"frame", frame.frame}};
+            if (frame.gaze)
+                entry["gaze_degrees"] = {frame.gaze->x, frame.gaze->y};
             add_scores(entry, frame.scores, frame.temporal);
             json["per_frame"].push_back(entry);
         }

@@ -106,8 +106,11 @@ class Comparison {
         ComparedFrame result;
         result.frame = frame;
         std::optional<metric::View> view;
-        if (view_->has_gaze())
-            view = view_->at(frame);
+        if (view_->has_gaze()) {
+            const glm::dvec3 direction = view_->direction(frame);
+            result.gaze = scene::angles_of_direction(direction);
+            view = view_->looking_at(direction);
+        }
         result.scores =
             metric::score(r, pair.test.picture, score_options(options_, view_->pixels_per_degree()),
                           view ? &*view : nullptr);

@@ -9,7 +9,8 @@ namespace macula::app {
 
 struct ComparedFrame {
     std::uint32_t frame = 0;
-    metric::FrameScores scores; // without maps
+    std::optional<glm::dvec2> gaze; // degrees to the right and up
+    metric::FrameScores scores;     // without maps
     std::vector<metric::TemporalScore> temporal;
 };
 

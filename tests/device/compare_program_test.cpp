@@ -124,6 +124,7 @@ TEST_F(CompareProgram, SequencesAreScoredFrameByFrameAndInTime) {
     EXPECT_EQ(found["frames"], 4);
     ASSERT_EQ(found["per_frame"].size(), 4u);
     EXPECT_EQ(found["per_frame"][0]["flip_mean"], 0.0);
+    EXPECT_NEAR(found["per_frame"][3]["gaze_degrees"][1].get<double>(), 0.0, 1e-9);
     EXPECT_GT(found["per_frame"][1]["flip_mean"], 0.01);
     EXPECT_GT(found["instability"], 0.01);
     EXPECT_GT(found["flicker_energy"], 1e-4);

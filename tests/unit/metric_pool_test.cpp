@@ -1,4 +1,5 @@
 // Pooled errors by hand.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -43,6 +44,28 @@ TEST(Pool, OfNothingWrongIsZero) {
     for (const double value :
          {p.mean, p.weighted_median, p.weighted_q1, p.weighted_q3, p.min, p.max})
         EXPECT_EQ(value, 0.0);
+}
+
+TEST(Pool, SortsErrorsOfAllSizes) {
+    std::vector<float> errors;
+    for (int exponent = -149; exponent < 100; ++exponent)
+        errors.insert(errors.begin() + (exponent * 7919 & 63) % (errors.size() + 1),
+                      std::ldexp(1.0f + 0.37f * static_cast<float>(exponent & 1), exponent));
+    errors.push_back(-0.0f);
+    std::vector<float> sorted = errors;
+    std::sort(sorted.begin(), sorted.end());
+    double total = 0.0, running = 0.0;
+    for (const float x : sorted)
+        total += x;
+    for (const float x : sorted) {
+        running += x;
+        if (x > 0.0f && running <= 0.999 * total) {
+            EXPECT_GE(weighted_quantile(errors, running / total), x);
+        }
+    }
+    EXPECT_EQ(pool(errors).min, 0.0);
+    EXPECT_EQ(pool(errors).max, sorted.back());
+    EXPECT_EQ(pool(errors).mean, total / static_cast<double>(errors.size()));
 }
 
 TEST(Pool, RefusesNoErrorsAndErrorsThatAreNone) {
