@@ -1,19 +1,15 @@
 #include "bench/foveation.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <stdexcept>
+#include <span>
 
 #include <fmt/format.h>
 
+#include "bench/flight.hpp"
 #include "bench/foveation_scenes.hpp"
 #include "bench/resume_file.hpp"
 #include "host/metric/statistics.hpp"
 #include "host/render/renderer.hpp"
 #include "scenes/gaze/spec.hpp"
-#include "scenes/head/pose.hpp"
 
 namespace macula::bench {
 namespace {
@@ -33,9 +29,7 @@ struct Series {
         device_ms.push_back(sum);
         wall_ms.push_back(report.wall_ms);
         rays.push_back(static_cast<double>(report.total_rays()));
-        camera_rays.push_back(
-            static_cast<double>(report.rays[static_cast<std::size_t>(kernel::RayClass::primary)] +
-                                report.rays[static_cast<std::size_t>(kernel::RayClass::sparse)]));
+        camera_rays.push_back(bench::camera_rays(report));
     }
 };
 
@@ -71,47 +65,14 @@ void fill(FoveationRow& row, const Series& full, const Series& ours) {
     row.efficiency = row.speedup * row.rays_ours / row.rays_full;
 }
 
-// Frames of the path: `segments` stretches that are spread over it evenly.
-class Schedule {
-  public:
-    Schedule(const FoveationOptions& options, std::uint32_t path_frames)
-        : options_(options), path_(std::max(path_frames, options.frames)) {}
-
-    // The first measured frame of a segment, after its warm-up.
-    std::uint32_t first(std::uint32_t segment) const {
-        const std::uint64_t from = std::uint64_t{path_} * segment / options_.segments;
-        return static_cast<std::uint32_t>(from) + options_.warm_up;
-    }
-    // How many of the frames belong to the segment.
-    std::uint32_t count(std::uint32_t segment) const {
-        const auto before = [&](std::uint32_t s) {
-            return static_cast<std::uint32_t>(std::uint64_t{options_.frames} * s /
-                                              options_.segments);
-        };
-        return before(segment + 1) - before(segment);
-    }
-
-  private:
-    const FoveationOptions& options_;
-    std::uint32_t path_;
-};
-
 // A scene with the display and gaze of the benchmark.
 class Flight {
   public:
     Flight(const FoveationOptions& options, compute::Device& device, const std::string& name)
         : options_(options), device_(device), name_(scene_name(name)),
-          scene_(load_fly_through(name, options.scene_path)),
-          display_(scene::find_display(options.display)) {
-        if (options.width != 0) {
-            display_.width = options.width;
-            display_.height = options.height;
-        }
-        gaze_ = scene::parse_gaze(options.gaze, {display_, scene::Eye::mono, {}});
-        if (gaze_->live())
-            throw std::invalid_argument("--gaze " + options.gaze +
-                                        ": a benchmark needs a gaze that can be repeated");
-    }
+          scene_(load_fly_through(name, options.scene_path)), display_(display_of(options)),
+          gaze_name_(gaze_of(options, display_)->describe()),
+          view_(scene_, display_, gaze_of(options, display_)) {}
 
     // What a row of these lights and region will say besides its figures.
     FoveationRow blank_row(frame::LightMode lights, const Region& region) const {
@@ -124,7 +85,7 @@ class Flight {
         row.frames = options_.frames;
         row.segments = options_.segments;
         row.warm_up = options_.warm_up;
-        row.gaze = gaze_->describe();
+        row.gaze = gaze_name_;
         row.device = device_.facts().name;
         row.driver = device_.facts().driver_version;
         row.commit = MACULA_COMMIT;
@@ -139,7 +100,8 @@ class Flight {
         for (const Region& region : regions)
             methods.push_back(make("weier", lights, region));
         std::vector<Series> series(methods.size());
-        const Schedule schedule(options_, scene_.path.frames);
+        const Schedule schedule(options_.frames, options_.segments, options_.warm_up,
+                                scene_.path.frames);
         render(methods.front(), schedule.first(0)); // its first frame builds its kernels
         for (std::uint32_t segment = 0; segment < options_.segments; ++segment)
             fly(methods, series, schedule.first(segment), schedule.count(segment));
@@ -150,6 +112,20 @@ class Flight {
     }
 
   private:
+    static scene::Display display_of(const FoveationOptions& options) {
+        scene::Display display = scene::find_display(options.display);
+        if (options.width != 0) {
+            display.width = options.width;
+            display.height = options.height;
+        }
+        return display;
+    }
+
+    static scene::GazePointer gaze_of(const FoveationOptions& options,
+                                      const scene::Display& display) {
+        return scene::parse_gaze(options.gaze, {display, scene::Eye::mono, {}});
+    }
+
     render::Renderer make(const char* method, frame::LightMode lights, const Region& region) const {
         render::Options engine;
         engine.method = method;
@@ -158,9 +134,7 @@ class Flight {
         engine.lights = lights;
         engine.light_samples = options_.light_samples;
         engine.ambient_occlusion_samples = options_.ambient_occlusion_samples;
-        const scene::EyeView& eye = display_.eye(scene::Eye::mono);
-        engine.tangents = {static_cast<float>(eye.tan_left), static_cast<float>(eye.tan_right),
-                           static_cast<float>(eye.tan_up), static_cast<float>(eye.tan_down)};
+        engine.tangents = tangents_of(display_);
         engine.weier.r0 = region.r0;
         engine.weier.r1 = region.r1;
         engine.weier.p_min = region.p_min;
@@ -169,17 +143,8 @@ class Flight {
     }
 
     render::FrameReport render(render::Renderer& renderer, std::uint32_t frame) {
-        const scene::Camera head = frame::camera_on_path(scene_, frame);
-        const auto time_ns =
-            static_cast<std::int64_t>(std::llround(frame * (1e9 / display_.refresh_hz)));
-        const scene::GazeSample sample = gaze_->at(time_ns);
-        frame::Gaze gaze;
-        gaze.direction = glm::vec3(scene::world_from_head(head) * sample.of(scene::Eye::mono));
-        gaze.widening = static_cast<float>(sample.widening);
-        return renderer.render(
-            frame,
-            scene::eye_camera(head, display_.eye(scene::Eye::mono), 1.0 / scene_.metres_per_unit),
-            gaze);
+        const FlightFrame view = view_.at(frame);
+        return renderer.render(frame, view.camera, view.gaze);
     }
 
     // `full` has no history to warm up.
@@ -204,24 +169,16 @@ class Flight {
     std::string name_;
     scene::Scene scene_;
     scene::Display display_;
-    scene::GazePointer gaze_;
+    std::string gaze_name_;
+    FlightView view_;
 };
-
-void check(const FoveationOptions& options) {
-    if (options.frames < 1 || options.frames > 100000)
-        throw std::invalid_argument("--frames must lie between 1 and 100000");
-    if (options.segments < 1 || options.segments > options.frames)
-        throw std::invalid_argument("--segments must lie between 1 and the number of frames");
-    if (options.warm_up < 1 || options.warm_up > 1000)
-        throw std::invalid_argument("--warm-up must lie between 1 and 1000");
-}
 
 } // namespace
 
 std::vector<FoveationRow> run_foveation(const FoveationOptions& options,
                                         const std::vector<Region>& regions,
                                         const FoveationProgress& progress) {
-    check(options);
+    Schedule(options.frames, options.segments, options.warm_up, 0); // refuses before it loads
     compute::Device device = compute::open(options.device);
     const ResumeFile file(options.resume);
     std::vector<frame::LightMode> lights = options.lights;

@@ -1,4 +1,4 @@
-// Rows of a benchmark in a file of JSON lines, so that an interrupted run goes on where it was.
+// Rows of a foveated benchmark in a file of JSON lines.
 #pragma once
 
 #include <filesystem>
@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "bench/foveation.hpp"
+#include "bench/line_file.hpp"
 
 namespace macula::bench {
 
 class ResumeFile {
   public:
-    // Reads the rows that are there; a last line without an end, which an interruption left, is cut
-    // off. An empty path keeps nothing. Throws std::runtime_error that names file and line.
+    // As LineFile.
     explicit ResumeFile(std::filesystem::path path);
 
     // The row of the same scene, lights, region, size, frames, segments, warm-up, gaze and device.
     const FoveationRow* find(const FoveationRow& wanted) const;
-    void add(const std::string& line) const;
+    void add(const std::string& line) const { file_.add(line); }
 
   private:
-    std::filesystem::path path_;
-    std::vector<FoveationRow> rows_;
+    std::vector<FoveationRow> rows_; // filled while file_ is made
+    LineFile file_;
 };
 
 } // namespace macula::bench

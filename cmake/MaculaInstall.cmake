@@ -3,7 +3,8 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules shared kernels bvh scenes cl kernel frame stage method metric output render selftest host)
+set(modules shared kernels bvh scenes cl kernel frame stage method metric output report render
+            selftest host)
 foreach(module IN LISTS modules)
   if(NOT TARGET macula_${module})
     continue()

@@ -12,7 +12,8 @@ build_packages=(
   libzstd-dev zlib1g-dev
 )
 test_packages=(libgtest-dev libgmock-dev)
-check_packages=(oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3-venv)
+check_packages=(oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3-venv
+  chromium snakemake)
 
 say() { printf '%s: %s\n' "$program" "$*"; }
 

@@ -14,6 +14,7 @@
 #include "bench/report.hpp"
 #include "bench/traversal.hpp"
 #include "host/app/bench_foveation.hpp"
+#include "host/app/bench_quality.hpp"
 
 #include <unistd.h>
 
@@ -112,13 +113,18 @@ macula::app::Run add(CLI::App& command) {
         "table1", "Full and foveated frames along fly-throughs: table 1 of Weier et al. 2016");
     CLI::App* figure5 =
         command.add_subcommand("figure5", "The same for four foveal regions: their figure 5");
+    CLI::App* quality = command.add_subcommand(
+        "quality", "Quality and time of full, weier and lowres against converged references");
     command.require_subcommand(1);
     const auto run_traversal = add_traversal(*traversal);
     const auto run_table1 = macula::app::add_bench_table1(*table1);
     const auto run_figure5 = macula::app::add_bench_figure5(*figure5);
+    const auto run_quality = macula::app::add_bench_quality(*quality);
     return [=] {
         if (table1->parsed())
             return run_table1();
+        if (quality->parsed())
+            return run_quality();
         return figure5->parsed() ? run_figure5() : run_traversal();
     };
 }

@@ -11,6 +11,7 @@
 
 #include "host/app/aov.hpp"
 #include "host/app/command.hpp"
+#include "host/app/log_polar_options.hpp"
 #include "host/kernel/program_cache.hpp"
 #include "scenes/load.hpp"
 
@@ -112,6 +113,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.lanes = options.lanes;
     engine.weier = engine_options(options.weier);
     engine.lowres_scale = options.weier.lowres_scale;
+    engine.log_polar = options.log_polar;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
@@ -143,6 +145,7 @@ void RenderOptions::add_to(CLI::App& command) {
         ->capture_default_str();
     command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
     weier.add_to(command);
+    add_log_polar_options(command, log_polar);
     command.add_option("--variant", variant, "Traversal variant for all rays");
     command
         .add_option("--lanes", lanes,

@@ -27,6 +27,7 @@ struct RenderOptions : ViewOptions {
     std::uint64_t scene_seed = 1;
     float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
     WeierOptions weier;
+    stage::LogPolarOptions log_polar;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

@@ -1,4 +1,4 @@
-/// The OpenCL C files under kernels/, embedded into the program by cmake/EmbedKernels.cmake.
+/// The OpenCL C files under kernels/, embedded into the program by cmake/EmbedFiles.cmake.
 #pragma once
 
 #include <span>

@@ -10,6 +10,7 @@
 #include "host/frame/lights.hpp"
 #include "host/stage/foveated.hpp"
 #include "host/stage/kit.hpp"
+#include "host/stage/log_polar.hpp"
 
 namespace macula::method {
 
@@ -17,6 +18,7 @@ struct Options {
     frame::LightMode lights = frame::LightMode::point;
     stage::WeierOptions weier;
     float lowres_scale = 0.46f; // of method lowres: part of the pixels along each axis, 0..1
+    stage::LogPolarOptions log_polar;
 };
 
 struct Method {
@@ -31,6 +33,7 @@ const Method& find_method(std::string_view name);
 
 // host/method/<name>.cpp
 frame::Graph make_full(const stage::Kit& kit, const Options& options);
+frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::array kMethods = {
     Method{"full", "every pixel, any samples per pixel", make_full},
+    Method{"logpolar", "samples uniform in kernel log-polar space (Mrad 2022)", make_logpolar},
     Method{"lowres", "uniform lower resolution, enlarged by a bicubic filter", make_lowres},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},
 };

@@ -85,7 +85,7 @@ std::shared_ptr<DeviceScene> checked_scene(const compute::Device& device, const 
 
 frame::Graph make_graph(const stage::Kit& kit, const Options& o) {
     frame::Graph graph =
-        method::find_method(o.method).make(kit, {o.lights, o.weier, o.lowres_scale});
+        method::find_method(o.method).make(kit, {o.lights, o.weier, o.lowres_scale, o.log_polar});
     if (o.lens && !o.tangents)
         throw std::invalid_argument("a lens needs the tangents of its display's field of view");
     if (o.lens)

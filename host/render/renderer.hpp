@@ -25,6 +25,7 @@
 #include "host/render/device_scene.hpp"
 #include "host/stage/foveated.hpp"
 #include "host/stage/lens.hpp"
+#include "host/stage/log_polar.hpp"
 #include "scenes/scene.hpp"
 
 namespace macula::render {
@@ -48,6 +49,7 @@ struct Options {
     std::vector<std::string> images;
     stage::WeierOptions weier;       // of method "weier"
     float lowres_scale = 0.46f;      // of method "lowres": part of the pixels along each axis, 0..1
+    stage::LogPolarOptions log_polar; // of method "logpolar"
     frame::GeometryOptions geometry; // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

@@ -1,6 +1,20 @@
 #include "host/stage/cache.hpp"
 
 namespace macula::stage {
+namespace {
+
+// Packets of 4 x 4 pixels that a work-item merges: enough for the few samples of each to fill
+// sixteen lanes where a work-item is a thread's, one where work-items run side by side.
+std::uint32_t packets_of_item(const Kit& kit) {
+    return kit.lanes == 1 ? 1 : 32;
+}
+
+std::uint64_t merge_items(const Kit& kit) {
+    const std::uint32_t span = 4 * packets_of_item(kit);
+    return (std::uint64_t{kit.width} + span - 1) / span * ((std::uint64_t{kit.height} + 3) / 4);
+}
+
+} // namespace
 
 frame::Stage extract_support(const FoveatedKit& kit) {
     frame::Stage stage;
@@ -41,9 +55,12 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
     }
     stage.prepare = [kit, light, light_bytes, name = stage.name] {
         kit.grid->prepare(kit.kit);
-        const auto key = kernel::VariantKey("cache/merge").parameter("light", light_bytes / 4);
+        const auto key = kernel::VariantKey("cache/merge")
+                             .parameter("light", light_bytes / 4)
+                             .parameter("packets", packets_of_item(kit.kit));
         auto kernel = kit.kit.library.kernel(key, "merge_cache", kit.kit.device);
-        return [kit, light, light_bytes, name, kernel](frame::Run& run) mutable {
+        const std::size_t group = kit.kit.lanes == 1 ? kGroup : 1;
+        return [kit, light, light_bytes, name, group, kernel](frame::Run& run) mutable {
             const compute::Buffer none;
             const bool lit = light_bytes != 0;
             const SupportGrid& grid = *kit.grid;
@@ -55,7 +72,7 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
                      run["support image"], run["sampled colour"], run["surface depth"],
                      lit ? run["sampled light"] : none, run[kit.image], run["cache info"],
                      lit ? run[light] : none, run["reprojected colour"])
-                .launch(name, {kit.packets()}, {kGroup});
+                .launch(name, {compute::Range::cover(merge_items(kit.kit), group)}, {group});
         };
     };
     return stage;

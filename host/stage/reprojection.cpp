@@ -65,9 +65,11 @@ frame::Stage draw_mesh(const FoveatedKit& kit) {
         kit.grid->prepare(kit.kit);
         auto prepare = kit.kit.library.kernel(kernel::VariantKey("reproject/cells"),
                                               "prepare_cells", kit.kit.device);
-        auto draw = kit.kit.library.kernel(kernel::VariantKey("reproject/draw"), "draw_mesh",
-                                           kit.kit.device);
-        const std::uint64_t tiles = pitch / MACULA_DRAWN_TILE * (key_rows(kit) / MACULA_DRAWN_TILE);
+        const std::uint32_t wide = kit.kit.lanes == 1 ? MACULA_DRAWN_TILE : 4 * MACULA_DRAWN_TILE;
+        auto draw =
+            kit.kit.library.kernel(kernel::VariantKey("reproject/draw").parameter("wide", wide),
+                                   "draw_mesh", kit.kit.device);
+        const std::uint64_t tiles = (pitch + wide - 1) / wide * (key_rows(kit) / MACULA_DRAWN_TILE);
         return [kit, tiles, name, prepare, draw](frame::Run& run) mutable {
             const SupportGrid& grid = *kit.grid;
             prepare

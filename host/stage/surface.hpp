@@ -12,6 +12,7 @@ namespace macula::stage {
 // "surface triangle", "surface material" (uint), "surface motion" (float2, pixels: the position in
 // the last frame minus that in this one). Of a miss: MACULA_BACKGROUND_DEPTH, zeros, the
 // background's radiance as emission, MACULA_NO_TRIANGLE.
-frame::Stage resolve_surface(const Kit& kit);
+// `spreads`: the resource with the pixels across each slot's footprint; without it one pixel.
+frame::Stage resolve_surface(const Kit& kit, const std::string& spreads = {});
 
 } // namespace macula::stage

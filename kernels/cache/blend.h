@@ -7,23 +7,15 @@
 #include "lib/simd.h"
 #include "shared/weier.h"
 
-/* Cache info as it comes: rho and touch of one pixel after the other. */
-typedef struct InfoLanes {
-    uint words[32];
-} InfoLanes;
-
 /* What a sample does: its weight, and the cache info after it. */
 typedef struct Blend {
-    float alpha[16], rho[16];
-    uint touch[16];
+    float16 alpha, rho;
+    uint16 touch;
 } Blend;
 
-/* A sample of weight 1 is taken as it is. */
-MACULA_ALWAYS_INLINE void weigh_samples(global const WeierParams* weier, uint now, int16 blended,
-                                        const InfoLanes* info, Blend* blend) {
-    const uint16 upper = vload16(0, info->words), lower = vload16(1, info->words);
-    const float16 rho = as_float16((uint16)(upper.even, lower.even));
-    const uint16 touch = (uint16)(upper.odd, lower.odd);
+/* rho, touch: the cache info before it. A sample of weight 1 is taken as it is. */
+MACULA_ALWAYS_INLINE Blend weigh_samples(global const WeierParams* weier, uint now, int16 blended,
+                                         float16 rho, uint16 touch) {
     const uint16 since = (now - touch) & MACULA_TOUCHED_MASK;
     const uint16 age = since == 0u ? (uint16)(1u) : since;
     const float16 power = fma(convert_float16(age - 1u), (float16)(weier->log2_k_slope),
@@ -33,15 +25,15 @@ MACULA_ALWAYS_INLINE void weigh_samples(global const WeierParams* weier, uint no
     const float16 one = (float16)(1.0f);
     const float16 safe = blended ? rho : one;
     const float16 alpha = blended ? m_max(m_divide(one, safe + 1.0f), k) : one;
-    const int16 worth_more = (safe > 0.0f) & (alpha < 1.0f);
     const float16 rest = 1.0f - alpha;
     const float16 part = m_divide(rest * rest, safe > 0.0f ? safe : one);
     const float16 worth = m_divide(one, fma(alpha, alpha, part));
-    vstore16(alpha, 0, blend->alpha);
-    vstore16(worth_more ? worth : one, 0, blend->rho);
-    vstore16(convert_uint16(rint(alpha * 4095.0f)) << MACULA_TOUCHED_BITS |
-                 (now & MACULA_TOUCHED_MASK),
-             0, blend->touch);
+    Blend blend;
+    blend.alpha = alpha;
+    blend.rho = ((safe > 0.0f) & (alpha < 1.0f)) ? worth : one;
+    blend.touch =
+        convert_uint16(rint(alpha * 4095.0f)) << MACULA_TOUCHED_BITS | (now & MACULA_TOUCHED_MASK);
+    return blend;
 }
 
 #endif

@@ -1,8 +1,7 @@
 /* Cache update and merge (Weier et al. 2016, section 3.4), together with the last step of the
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
-#include "cache/blend.h"
-#include "cache/light_value.h"
+#include "cache/samples.h"
 #include "cache/texels.h"
 #include "lib/camera.h"
 
@@ -12,6 +11,12 @@ typedef struct Past {
     global const uint2* info;
     global const LightValue* light;
 } Past;
+
+/* The cells as packets read them, and as single pixels do. */
+typedef struct Mesh {
+    CellTables cells;
+    MeshTables tables;
+} Mesh;
 
 /* A footprint of several texels is sampled at normally distributed places (section 3.2). */
 static inline float4 filtered_colour(global const float4* image, const MeshTables* mesh,
@@ -65,21 +70,6 @@ static inline float4 from_support(global const float4* image, global const Frame
     return sum;
 }
 
-/* A pixel's new state. */
-typedef struct Out {
-    global float4* colour;
-    global uint2* info;
-    global LightValue* light;
-} Out;
-
-static inline void take_sample(const Out* out, uint pixel, uint now, float4 colour,
-                               global const LightValue* light, uint slot) {
-    out->colour[pixel] = colour;
-    out->info[pixel] = (uint2)(as_uint(1.0f), pack_touch(1.0f, now));
-    if (out->light)
-        out->light[pixel] = light[slot];
-}
-
 /* Everything that a packet is made from. */
 typedef struct Packet {
     global const FrameParams* frame;
@@ -93,17 +83,29 @@ static inline uint pixel_of_lane(const Packet* p, uint lane) {
     return (p->y0 + (lane >> 2)) * p->frame->width + p->x0 + (lane & 3u);
 }
 
-/* What the samples bring. */
-typedef struct Samples {
-    global const float4* colour;
-    global const float* depth;
-    global const LightValue* light;
-} Samples;
+/* Sixteen samples that all take their pixels' places. */
+static inline void take_packet(const Packet* p, const Samples* samples, const Out* out) {
+    const uint2 once = (uint2)(as_uint(1.0f), pack_touch(1.0f, p->frame->frame));
+    const uint8 info = (uint8)(once, once, once, once);
+    for (uint row = 0u; row < 4u; ++row) {
+        const uint pixel = pixel_of_lane(p, 4u * row), slot = p->first + 4u * row;
+        vstore16(vload16(0, (global const float*)(samples->colour + slot)), 0,
+                 (global float*)(out->colour + pixel));
+        vstore8(info, 0, (global uint*)(out->info + pixel));
+        for (uint k = 0u; out->light && k < 4u; ++k)
+            out->light[pixel + k] = samples->light[slot + k];
+    }
+}
 
-static inline void take_samples(const Packet* p, const Samples* samples, const Out* out) {
-    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot)
-        take_sample(out, pixel_of_lane(p, first_lane(lanes)), p->frame->frame,
-                    samples->colour[slot], samples->light, slot);
+/* The packet's samples, where history was kept in the lanes `kept`. */
+MACULA_ALWAYS_INLINE void collect_samples(const Packet* p, uint kept, float16 inverse_depth,
+                                          Waiting* waiting) {
+    float depth[16];
+    vstore16(lanes_of(kept & ~p->fresh) ? inverse_depth : (float16)(NO_HISTORY), 0, depth);
+    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot) {
+        const uint lane = first_lane(lanes);
+        let_wait(waiting, pixel_of_lane(p, lane), slot, depth[lane]);
+    }
 }
 
 /* The light of a row's four histories. */
@@ -129,17 +131,15 @@ typedef struct Faults {
 } Faults;
 
 /* Histories are kept row by row; samples and gaps come afterwards. */
-MACULA_ALWAYS_INLINE void keep_row(const Packet* p, const Past* past, const Lanes* t,
-                                   const Spans* spans, uint row, const Out* out, InfoLanes* infos,
-                                   Faults* faults) {
+MACULA_ALWAYS_INLINE void keep_row(const Packet* p, const Past* past, const Sources* sources,
+                                   uint row, const Out* out, Faults* faults) {
     const uint width = p->frame->width;
     const int16 opaque = (MACULA_LANES16 & 3) == 3;
-    const float16 between = row_of_colours(past->colour, t, spans, width, row);
+    const float16 between = row_of_colours(past->colour, sources, width, row);
     const float16 colour = opaque ? (float16)(1.0f) : between;
-    const int* nearest = t->nearest + 4u * row;
+    const int* nearest = sources->lanes.nearest + 4u * row;
     const uint8 info = (uint8)(past->info[nearest[0]], past->info[nearest[1]],
                                past->info[nearest[2]], past->info[nearest[3]]);
-    vstore8(info, row, infos->words);
     const float4 rho = as_float4(info.even);
     faults->colour |= !(fabs(colour) < 1e30f);
     faults->rho |= !((rho >= 0.0f) & (rho < 1e6f));
@@ -186,55 +186,24 @@ static inline void fill(const Packet* p, global const float4* support, uint lane
         out->light[pixel] = UNLIT;
 }
 
-/* Samples where history was kept in some of the lanes, `kept`. */
-static inline void blend_samples(const Packet* p, const Samples* samples, uint kept,
-                                 const float* inverse_depth, const InfoLanes* info,
-                                 const Out* out) {
-    float depth[16];
-    vstore16((float16)(0.0f), 0, depth);
-    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot)
-        depth[first_lane(lanes)] = samples->depth[slot];
-    const float16 apart = fabs(fma(vload16(0, depth), vload16(0, inverse_depth), (float16)(-1.0f)));
-    const int16 blended =
-        lanes_of(kept & ~p->fresh) & (apart <= (float16)(p->weier->merge_threshold));
-    Blend blend;
-    weigh_samples(p->weier, p->frame->frame, blended, info, &blend);
-    for (uint lanes = p->sampled, slot = p->first; lanes != 0u; lanes &= lanes - 1u, ++slot) {
-        const uint lane = first_lane(lanes), pixel = pixel_of_lane(p, lane);
-        const float alpha = blend.alpha[lane];
-        const float4 fresh = samples->colour[slot], old = out->colour[pixel];
-        const float4 mixed = fma(fresh - old, (float4)(alpha), old);
-        out->colour[pixel] = alpha < 1.0f ? (float4)(mixed.xyz, 1.0f) : fresh;
-        out->info[pixel] = (uint2)(as_uint(blend.rho[lane]), blend.touch[lane]);
-        if (out->light) {
-            const LightValue lit = samples->light[slot], before = out->light[pixel];
-            out->light[pixel] = alpha < 1.0f && is_lit(before)
-                                    ? fma(lit - before, (LightValue)(alpha), before)
-                                    : lit;
-        }
-    }
-}
-
 MACULA_ALWAYS_INLINE uint16 keys_of(global const uint* keys, uint pitch) {
     return (uint16)(vload4(0, keys), vload4(0, keys + pitch), vload4(0, keys + 2u * pitch),
                     vload4(0, keys + 3u * pitch));
 }
 
-/* Packets between asking for memory and using it: their addresses jump too much for a processor to
- * foresee them, and each packet waits for its keys, then for its texels. */
-#define AHEAD 16u
+/* Pixels between asking for memory and using it: each row of a packet begins in another page, and
+ * few processors follow that many streams by themselves. */
+#define AHEAD 64u
 
-/* Asks for what a later packet will need; `motion`: from a pixel to its history, in texels. */
-MACULA_ALWAYS_INLINE void fetch_ahead(global const FrameParams* frame, uint packet, int motion,
-                                      global const uint* keys, uint pitch, const Past* past,
-                                      const Out* out) {
-    const uint width = frame->width;
-    uint x, y;
-    pixel_of_slot(packet * 16u, width, &x, &y);
+/* Asks for what a later packet will need; `motion`: from a pixel to its history, in texels. The
+ * rows above are there already, from the packets above and from this one's. */
+MACULA_ALWAYS_INLINE void fetch_ahead(const Packet* p, int motion, global const uint* keys,
+                                      const Past* past, const Out* out) {
+    const uint width = p->frame->width, pitch = p->weier->pitch;
     for (uint row = 0u; row < 4u; ++row) {
-        const long pixel = (long)(y + row) * width + x;
-        MACULA_FETCH(keys, ((y + row) * pitch + x) * sizeof(uint));
-        MACULA_FETCH(past->colour, (pixel + motion) * (long)sizeof(float4));
+        const long pixel = (long)((p->y0 + row) * width + p->x0 + AHEAD);
+        MACULA_FETCH(keys, ((p->y0 + row) * pitch + p->x0 + AHEAD) * sizeof(uint));
+        MACULA_FETCH(past->colour, (pixel + motion + 2 * (long)width) * (long)sizeof(float4));
         MACULA_FETCH(past->info, (pixel + motion) * (long)sizeof(uint2));
         MACULA_FETCH_TO_WRITE(out->colour, pixel * (long)sizeof(float4));
         MACULA_FETCH_TO_WRITE(out->info, pixel * (long)sizeof(uint2));
@@ -245,13 +214,46 @@ MACULA_ALWAYS_INLINE void fetch_ahead(global const FrameParams* frame, uint pack
     }
 }
 
-MACULA_ALWAYS_INLINE int motion_of(const Spans* spans, const Packet* p) {
-    const int pixel = (int)(p->y0 * p->frame->width + p->x0);
-    return spans->first[0] != 0x7fffffff ? spans->first[0] - pixel : 0;
+/* The kept histories of the lanes `known`. Returns those that are sound; `inverse_depth`: of all.
+ */
+MACULA_ALWAYS_INLINE uint keep_histories(const Packet* p, const Mesh* mesh, const Past* past,
+                                         uint16 key, uint known, const Out* out,
+                                         float16* inverse_depth, int* motion) {
+    const float16 x = (float)p->x0 + (convert_float16(MACULA_LANES16 & 3) + 0.5f);
+    const float16 y = (float)p->y0 + (convert_float16(MACULA_LANES16 >> 2) + 0.5f);
+    HistoryPacket history;
+    find_histories(&mesh->cells, p->weier, key, known, x, y, &history);
+    *inverse_depth = history.inverse_depth;
+    Sources sources;
+    find_sources(&history, lanes_of(known), p->frame->width, p->frame->height, &sources);
+    if (sources.spans.first[0] != 0x7fffffff)
+        *motion = sources.spans.first[0] - (int)(p->y0 * p->frame->width + p->x0);
+    Faults faults = {(int16)(0), (int4)(0)};
+    for (uint row = 0u; row < 4u; ++row)
+        if ((known >> 4u * row & 15u) != 0u)
+            keep_row(p, past, &sources, row, out, &faults);
+    faults.colour.lo.lo |= faults.rho;
+    uint kept = any_lane16(faults.colour) ? sound_lanes(p, known, out) : known;
+    const uint wide = p->weier->filter_samples > 0u ? history.wide & kept : 0u;
+    if (wide == 0u)
+        return kept;
+    uint key_of_lane[16];
+    vstore16(key, 0, key_of_lane);
+    for (uint lanes = wide; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes);
+        const float4 filtered =
+            filtered_colour(past->colour, &mesh->tables, p->frame, p->weier, key_of_lane[lane],
+                            p->x0 + (lane & 3u), p->y0 + (lane >> 2));
+        if (is_number(filtered))
+            out->colour[pixel_of_lane(p, lane)] = (float4)(filtered.xyz, 1.0f);
+        else
+            kept &= ~(1u << lane);
+    }
+    return kept;
 }
 
-/* One work-item a packet of sixteen pixels. `reprojected_colour` may be null, and the light
- * buffers where the method has none. */
+/* One work-item MACULA_PACKETS packets of sixteen pixels, side by side: what they read lies in a
+ * few rows. `reprojected_colour` may be null, and the light buffers where the method has none. */
 kernel void
 merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict mesh_columns, global const float* restrict mesh_rows,
@@ -265,85 +267,47 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
             global const LightValue* restrict sampled_light, global float4* restrict colour,
             global uint2* restrict info, global LightValue* restrict light,
             global float4* restrict reprojected_colour) {
-    const uint packet = (uint)get_global_id(0);
     const uint width = frame->width, height = frame->height;
-    Packet p;
-    p.frame = frame;
-    p.weier = weier;
-    pixel_of_slot(packet * 16u, width, &p.x0, &p.y0);
-    const uint columns = p.x0 < width ? min(width - p.x0, 4u) : 0u;
-    const uint rows = p.y0 < height ? min(height - p.y0, 4u) : 0u;
-    p.inside = ((1u << columns) - 1u) * (0x1111u & ((1u << 4u * rows) - 1u));
-    p.sampled = masks[packet] & 0xffffu;
-    p.fresh = masks[packet] >> 16;
-    p.first = offsets[packet];
+    const uint span = 4u * MACULA_PACKETS, items = (width + span - 1u) / span;
+    const uint item = (uint)get_global_id(0);
+    const uint y0 = item / items * 4u, left = item % items * span;
+    if (y0 >= height)
+        return;
     const Out out = {colour, info, light};
     const Samples samples = {sampled_colour, depth, sampled_light};
-    const uint rest = reprojected_colour ? p.inside : p.inside & ~p.fresh;
-    if (rest == 0u) {
-        take_samples(&p, &samples, &out);
-        return;
-    }
     const Past past = {past_colour, past_info, past_light};
-    const uint16 key = keys_of(keys + p.y0 * weier->pitch + p.x0, weier->pitch);
-    /* Keys with the bit are to be resampled; MACULA_NO_KEY has it, too. */
-    const int16 unmarked = (key & 1u) == 0u;
-    const uint known = *history_kept != 0u ? rest & bits_of_lanes16(unmarked) : 0u;
-    uint kept = 0u;
-    float inverse_depth[16];
-    InfoLanes infos;
-    if (known != 0u) {
-        const float16 x = (float)p.x0 + (convert_float16(MACULA_LANES16 & 3) + 0.5f);
-        const float16 y = (float)p.y0 + (convert_float16(MACULA_LANES16 >> 2) + 0.5f);
-        const CellTables tables = {cells, mesh_columns, mesh_rows};
-        HistoryPacket history;
-        find_histories(&tables, weier, key, known, x, y, &history);
-        Texels texels;
-        find_texels(&history, width, height, &texels);
-        Spans spans;
-        find_spans(&texels, lanes_of(known), width, height, &spans);
-        fetch_ahead(frame, packet + AHEAD, motion_of(&spans, &p), keys, weier->pitch, &past, &out);
-        Lanes t;
-        vstore16(texels.upper_left, 0, t.upper_left);
-        vstore16(texels.upper_right, 0, t.upper_right);
-        vstore16(texels.lower_left, 0, t.lower_left);
-        vstore16(texels.lower_right, 0, t.lower_right);
-        vstore16(texels.nearest, 0, t.nearest);
-        vstore16(texels.to_x, 0, t.to_x);
-        vstore16(texels.to_y, 0, t.to_y);
-        vstore16(history.inverse_depth, 0, inverse_depth);
-        vstore16((uint16)(0u), 0, infos.words);
-        vstore16((uint16)(0u), 1, infos.words);
-        Faults faults = {(int16)(0), (int4)(0)};
-        for (uint row = 0u; row < 4u; ++row)
-            if ((known >> 4u * row & 15u) != 0u)
-                keep_row(&p, &past, &t, &spans, row, &out, &infos, &faults);
-        faults.colour.lo.lo |= faults.rho;
-        kept = any_lane16(faults.colour) ? sound_lanes(&p, known, &out) : known;
-        uint key_of_lane[16];
-        vstore16(key, 0, key_of_lane);
-        const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
-        const uint wide = weier->filter_samples > 0u ? history.wide & kept : 0u;
-        for (uint lanes = wide; lanes != 0u; lanes &= lanes - 1u) {
-            const uint lane = first_lane(lanes);
-            const float4 filtered =
-                filtered_colour(past_colour, &mesh, frame, weier, key_of_lane[lane],
-                                p.x0 + (lane & 3u), p.y0 + (lane >> 2));
-            if (is_number(filtered))
-                colour[pixel_of_lane(&p, lane)] = (float4)(filtered.xyz, 1.0f);
-            else
-                kept &= ~(1u << lane);
+    const Mesh mesh = {{cells, mesh_columns, mesh_rows}, {vertices, mesh_columns, mesh_rows}};
+    const uint rows = min(height - y0, 4u), rows_inside = 0x1111u & ((1u << 4u * rows) - 1u);
+    const bool any_history = *history_kept != 0u;
+    Waiting waiting;
+    waiting.count = 0u;
+    int motion = 0;
+    for (uint x0 = left; x0 < min(width, left + span); x0 += 4u) {
+        const uint packet = slot_of_pixel(x0, y0, width) / 16u, mask = masks[packet];
+        Packet p = {frame, weier, x0, y0, mask & 0xffffu, mask >> 16, 0u, offsets[packet]};
+        p.inside = ((1u << min(width - x0, 4u)) - 1u) * rows_inside;
+        fetch_ahead(&p, motion, keys, &past, &out);
+        const uint rest = reprojected_colour ? p.inside : p.inside & ~p.fresh;
+        if (rest == 0u && mask == 0xffffffffu) {
+            take_packet(&p, &samples, &out);
+            continue;
         }
+        const uint16 key = keys_of(keys + y0 * weier->pitch + x0, weier->pitch);
+        /* Keys with the bit are to be resampled; MACULA_NO_KEY has it, too. */
+        const uint known = any_history ? rest & bits_of_lanes16((key & 1u) == 0u) : 0u;
+        uint kept = 0u;
+        float16 inverse_depth = (float16)(0.0f);
+        if (known != 0u)
+            kept = keep_histories(&p, &mesh, &past, key, known, &out, &inverse_depth, &motion);
+        if (reprojected_colour)
+            for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
+                const uint lane = first_lane(lanes), pixel = pixel_of_lane(&p, lane);
+                reprojected_colour[pixel] =
+                    (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
+            }
+        collect_samples(&p, kept, inverse_depth, &waiting);
+        for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
+            fill(&p, support_image, first_lane(lanes), &out);
     }
-    if (reprojected_colour)
-        for (uint lanes = rest; lanes != 0u; lanes &= lanes - 1u) {
-            const uint lane = first_lane(lanes), pixel = pixel_of_lane(&p, lane);
-            reprojected_colour[pixel] = (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
-        }
-    if ((kept & p.sampled & ~p.fresh) != 0u)
-        blend_samples(&p, &samples, kept, inverse_depth, &infos, &out);
-    else
-        take_samples(&p, &samples, &out);
-    for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
-        fill(&p, support_image, first_lane(lanes), &out);
+    blend_waiting(weier, frame->frame, &waiting, &samples, &out);
 }

@@ -73,6 +73,19 @@ MACULA_ALWAYS_INLINE Cubic cubic_weights16(float16 t) {
     return w;
 }
 
+/* Of the four pixels of a row, for each of their four components. */
+MACULA_ALWAYS_INLINE float16 spread_row(float16 v, uint row) {
+    const float8 half_of = row < 2u ? v.lo : v.hi;
+    const float4 r = (row & 1u) == 0u ? half_of.lo : half_of.hi;
+    return (float16)(r.xxxx, r.yyyy, r.zzzz, r.wwww);
+}
+
+MACULA_ALWAYS_INLINE Cubic spread_weights(const Cubic* w, uint row) {
+    const Cubic r = {spread_row(w->before, row), spread_row(w->first, row),
+                     spread_row(w->second, row), spread_row(w->after, row)};
+    return r;
+}
+
 /* Four pixels' texels side by side, from `at` on. */
 MACULA_ALWAYS_INLINE float16 cubic_row16(global const float* at, const Cubic* w) {
     const float16 outer = fma(vload16(0, at - 4), w->before, vload16(0, at + 8) * w->after);
@@ -81,14 +94,13 @@ MACULA_ALWAYS_INLINE float16 cubic_row16(global const float* at, const Cubic* w)
 
 /* Between four by four texels, but within what the inner four span: sharper than between those
  * alone, since a history is read anew in every frame, and without ringing. */
-MACULA_ALWAYS_INLINE float16 cubic_texels16(global const float* at, uint width, float16 to_x,
-                                            float16 to_y) {
+MACULA_ALWAYS_INLINE float16 cubic_texels16(global const float* at, uint width, const Cubic* x,
+                                            const Cubic* y) {
     const uint line = 4u * width;
-    const Cubic x = cubic_weights16(to_x), y = cubic_weights16(to_y);
     const float16 outer =
-        fma(cubic_row16(at - line, &x), y.before, cubic_row16(at + 2u * line, &x) * y.after);
+        fma(cubic_row16(at - line, x), y->before, cubic_row16(at + 2u * line, x) * y->after);
     const float16 value =
-        fma(cubic_row16(at, &x), y.first, fma(cubic_row16(at + line, &x), y.second, outer));
+        fma(cubic_row16(at, x), y->first, fma(cubic_row16(at + line, x), y->second, outer));
     const float16 a = vload16(0, at), b = vload16(0, at + 4);
     const float16 c = vload16(0, at + line), d = vload16(0, at + line + 4);
     const float16 low = m_min(m_min(a, b), m_min(c, d));
@@ -100,27 +112,49 @@ MACULA_ALWAYS_INLINE float16 four_texels(global const float4* image, const int* 
     return (float16)(image[index[0]], image[index[1]], image[index[2]], image[index[3]]);
 }
 
-/* Indices of texels and weights, lane by lane. */
+/* Indices of texels, lane by lane, for where they are scattered. */
 typedef struct Lanes {
     int upper_left[16], upper_right[16], lower_left[16], lower_right[16], nearest[16];
-    float to_x[16], to_y[16];
 } Lanes;
+
+MACULA_ALWAYS_INLINE void put_lanes(const Texels* texels, Lanes* t) {
+    vstore16(texels->upper_left, 0, t->upper_left);
+    vstore16(texels->upper_right, 0, t->upper_right);
+    vstore16(texels->lower_left, 0, t->lower_left);
+    vstore16(texels->lower_right, 0, t->lower_right);
+    vstore16(texels->nearest, 0, t->nearest);
+}
+
+/* What the rows of a packet share. */
+typedef struct Sources {
+    Texels texels;
+    Spans spans;
+    Cubic across, down;
+    Lanes lanes;
+} Sources;
+
+MACULA_ALWAYS_INLINE void find_sources(const HistoryPacket* history, int16 known, uint width,
+                                       uint height, Sources* s) {
+    find_texels(history, width, height, &s->texels);
+    find_spans(&s->texels, known, width, height, &s->spans);
+    s->across = cubic_weights16(s->texels.to_x);
+    s->down = cubic_weights16(s->texels.to_y);
+    put_lanes(&s->texels, &s->lanes);
+}
 
 /* Colours of the four pixels of a row between their texels: four each where these are scattered, or
  * at the image's edge. */
-MACULA_ALWAYS_INLINE float16 row_of_colours(global const float4* image, const Lanes* t,
-                                            const Spans* spans, uint width, uint row) {
-    const float4 x = vload4(row, t->to_x), y = vload4(row, t->to_y);
-    const float16 to_x = (float16)(x.xxxx, x.yyyy, x.zzzz, x.wwww);
-    const float16 to_y = (float16)(y.xxxx, y.yyyy, y.zzzz, y.wwww);
-    if ((spans->straight >> 4u * row & 15u) == 15u) {
-        global const float* at = (global const float*)(image + spans->first[row]);
-        return cubic_texels16(at, width, to_x, to_y);
+MACULA_ALWAYS_INLINE float16 row_of_colours(global const float4* image, const Sources* s,
+                                            uint width, uint row) {
+    if ((s->spans.straight >> 4u * row & 15u) == 15u) {
+        const Cubic x = spread_weights(&s->across, row), y = spread_weights(&s->down, row);
+        return cubic_texels16((global const float*)(image + s->spans.first[row]), width, &x, &y);
     }
-    return blend_texels(four_texels(image, t->upper_left + 4u * row),
-                        four_texels(image, t->upper_right + 4u * row),
-                        four_texels(image, t->lower_left + 4u * row),
-                        four_texels(image, t->lower_right + 4u * row), to_x, to_y);
+    const Lanes* t = &s->lanes;
+    return blend_texels(
+        four_texels(image, t->upper_left + 4u * row), four_texels(image, t->upper_right + 4u * row),
+        four_texels(image, t->lower_left + 4u * row), four_texels(image, t->lower_right + 4u * row),
+        spread_row(s->texels.to_x, row), spread_row(s->texels.to_y, row));
 }
 
 #endif

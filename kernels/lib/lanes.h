@@ -30,6 +30,9 @@ MACULA_INLINE Real splat(float x) {
 MACULA_INLINE Uint splat_uint(uint x) {
     return x;
 }
+MACULA_INLINE Int splat_int(int x) {
+    return x;
+}
 MACULA_INLINE Real3 splat_vector(float3 v) {
     return v;
 }
@@ -76,6 +79,9 @@ MACULA_INLINE Real splat(float x) {
 }
 MACULA_INLINE Uint splat_uint(uint x) {
     return (uint16)(x);
+}
+MACULA_INLINE Int splat_int(int x) {
+    return (int16)(x);
 }
 MACULA_ALWAYS_INLINE Real3 splat_vector(float3 v) {
     return spread16(v);

@@ -56,26 +56,5 @@ MACULA_INLINE float m_acos(float x) {
     return large ? of_large : of_small;
 }
 
-/* atan2(y, x) in radians, 3 ULP; atan2(0, 0) = 0 with the sign of y. */
-MACULA_INLINE float m_atan2(float y, float x) {
-    const float ax = fabs(x), ay = fabs(y);
-    const float larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
-    const float a = larger == 0.0f ? 0.0f : m_divide(smaller, larger);
-    const float z = a * a;
-    float p = -0x1.ca5c66p-10f;
-    p = fma(p, z, 0x1.615d98p-7f);
-    p = fma(p, z, -0x1.fc6926p-6f);
-    p = fma(p, z, 0x1.da0efep-5f);
-    p = fma(p, z, -0x1.580c3ep-4f);
-    p = fma(p, z, 0x1.c08cb2p-4f);
-    p = fma(p, z, -0x1.242086p-3f);
-    p = fma(p, z, 0x1.9991e4p-3f);
-    p = fma(p, z, -0x1.55553ep-2f);
-    float angle = fma(p, a * z, a);
-    angle = ay > ax ? 0x1.921fb6p+0f - angle : angle;
-    angle = x < 0.0f ? 0x1.921fb6p+1f - angle : angle;
-    return copysign(angle, y);
-}
-
 MACULA_SHARED_END
 #endif

@@ -166,6 +166,27 @@ MACULA_OVERLOADED REAL m_sin_cos_pi(REAL x, REAL* cosine) {
     return AS_REAL(AS_INT(sine) ^ ((quadrant & 2) << 30));
 }
 
+/* atan2(y, x) in radians, 3 ULP; atan2(0, 0) = 0 with the sign of y. */
+MACULA_OVERLOADED REAL m_atan2(REAL y, REAL x) {
+    const REAL ax = fabs(x), ay = fabs(y);
+    const REAL larger = ax > ay ? ax : ay, smaller = ax > ay ? ay : ax;
+    const REAL a = m_divide(smaller, larger == 0.0f ? (REAL)(1.0f) : larger);
+    const REAL z = a * a;
+    REAL p = -0x1.ca5c66p-10f;
+    p = fma(p, z, (REAL)(0x1.615d98p-7f));
+    p = fma(p, z, (REAL)(-0x1.fc6926p-6f));
+    p = fma(p, z, (REAL)(0x1.da0efep-5f));
+    p = fma(p, z, (REAL)(-0x1.580c3ep-4f));
+    p = fma(p, z, (REAL)(0x1.c08cb2p-4f));
+    p = fma(p, z, (REAL)(-0x1.242086p-3f));
+    p = fma(p, z, (REAL)(0x1.9991e4p-3f));
+    p = fma(p, z, (REAL)(-0x1.55553ep-2f));
+    REAL angle = fma(p, a * z, a);
+    angle = ay > ax ? 0x1.921fb6p+0f - angle : angle;
+    angle = x < 0.0f ? 0x1.921fb6p+1f - angle : angle;
+    return copysign(angle, y);
+}
+
 #undef REAL
 #undef INT
 #undef AS_INT

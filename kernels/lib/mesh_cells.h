@@ -56,7 +56,7 @@ MACULA_SHARED_BEGIN
 #define MACULA_BOUNDS_SECOND 4u
 #define MACULA_BOUNDS_FIELDS 5u
 
-/* The screen is drawn in squares of this many pixels; the rows of the keys are a multiple of it. */
+/* The screen is drawn in tiles of this many rows; the rows of the keys are a multiple of it. */
 #define MACULA_DRAWN_TILE 32u
 
 MACULA_ALWAYS_INLINE uint cell_blocks_across(uint support_width) {

@@ -42,15 +42,23 @@ MACULA_ALWAYS_INLINE float16 over_cell(global const float* cell, uint field, flo
     return above ? upper : lower;
 }
 
-MACULA_ALWAYS_INLINE float16 within(float16 v, float low, float high) {
+MACULA_ALWAYS_INLINE float16 within(float16 v, float low, float16 high) {
     v = v < low ? (float16)(low) : v;
-    return v > high ? (float16)(high) : v;
+    return v > high ? high : v;
 }
+
+/* The homographies of sixteen pixels, before the division: a place is `from` + `part` / `ratio`. */
+typedef struct Homographies {
+    float16 ratio, part_x, part_y, from_x, from_y;
+    float16 most_x, most_y; /* of part / ratio */
+    float16 inverse_depth;
+    uint wide;
+} Homographies;
 
 /* One cell's share: lanes `inside`, which are `bits`, at x, y. */
 MACULA_ALWAYS_INLINE void find_in_cell(const CellTables* mesh, global const WeierParams* weier,
                                        uint number, int16 inside, uint bits, float16 x, float16 y,
-                                       HistoryPacket* history) {
+                                       Homographies* found) {
     const uint i = number & ((1u << weier->cell_bits_x) - 1u), j = number >> weier->cell_bits_x;
     const uint block = j * cell_blocks_across(weier->support_width) + i / MACULA_CELL_LANES;
     global const float* cell =
@@ -63,19 +71,19 @@ MACULA_ALWAYS_INLINE void find_in_cell(const CellTables* mesh, global const Weie
                             -(cell[MACULA_CELL_DIAGONAL_Y * 16u] * to_x)) <= 0.0f;
     const float16 ratio =
         over_cell(cell, MACULA_PER_PIXEL_RATIO, cell[MACULA_CELL_RATIO * 16u], above, to_x, to_y);
-    const float16 inverse =
-        m_divide((float16)(1.0f), fabs(ratio) > 1e-12f ? ratio : (float16)(1e-12f));
     const float16 part_x = over_cell(cell, MACULA_PER_PIXEL_FROM_X, 0.0f, above, to_x, to_y);
     const float16 part_y = over_cell(cell, MACULA_PER_PIXEL_FROM_Y, 0.0f, above, to_x, to_y);
     const float16 depth =
         over_cell(cell, MACULA_PER_PIXEL_DEPTH, cell[MACULA_CELL_DEPTH * 16u], above, to_x, to_y);
-    /* A pixel of the cell cannot lie outside of it but by rounding. */
-    const float16 at_x = within(part_x * inverse, -0.5f, step.x + 0.5f);
-    const float16 at_y = within(part_y * inverse, -0.5f, step.y + 0.5f);
-    history->x = inside ? at_x + from.x : history->x;
-    history->y = inside ? at_y + from.y : history->y;
-    history->inverse_depth = inside ? depth : history->inverse_depth;
-    history->wide |= cell[MACULA_CELL_FOOTPRINT * 16u] > MACULA_WIDE_FOOTPRINT ? bits : 0u;
+    found->ratio = inside ? ratio : found->ratio;
+    found->part_x = inside ? part_x : found->part_x;
+    found->part_y = inside ? part_y : found->part_y;
+    found->from_x = inside ? (float16)(from.x) : found->from_x;
+    found->from_y = inside ? (float16)(from.y) : found->from_y;
+    found->most_x = inside ? (float16)(step.x + 0.5f) : found->most_x;
+    found->most_y = inside ? (float16)(step.y + 0.5f) : found->most_y;
+    found->inverse_depth = inside ? depth : found->inverse_depth;
+    found->wide |= cell[MACULA_CELL_FOOTPRINT * 16u] > MACULA_WIDE_FOOTPRINT ? bits : 0u;
 }
 
 /* The histories of the lanes in `wanted`, whose keys belong to cells. x, y: pixels' middles. */
@@ -85,15 +93,22 @@ MACULA_ALWAYS_INLINE void find_histories(const CellTables* mesh, global const We
     const uint16 numbers = keys >> 1 & ((1u << (weier->cell_bits_x + weier->cell_bits_y)) - 1u);
     uint number[16];
     vstore16(numbers, 0, number);
-    history->x = history->y = history->inverse_depth = (float16)(0.0f);
-    history->wide = 0u;
+    const float16 none = (float16)(0.0f);
+    Homographies found = {(float16)(1.0f), none, none, none, none, none, none, none, 0u};
     while (wanted != 0u) {
         const uint cell = number[first_lane(wanted)];
         const int16 inside = numbers == cell;
         const uint bits = bits_of_lanes16(inside) & wanted;
-        find_in_cell(mesh, weier, cell, inside, bits, x, y, history);
+        find_in_cell(mesh, weier, cell, inside, bits, x, y, &found);
         wanted &= ~bits;
     }
+    const float16 ratio = fabs(found.ratio) > 1e-12f ? found.ratio : (float16)(1e-12f);
+    const float16 inverse = m_divide((float16)(1.0f), ratio);
+    /* A pixel of the cell cannot lie outside of it but by rounding. */
+    history->x = within(found.part_x * inverse, -0.5f, found.most_x) + found.from_x;
+    history->y = within(found.part_y * inverse, -0.5f, found.most_y) + found.from_y;
+    history->inverse_depth = found.inverse_depth;
+    history->wide = found.wide;
 }
 
 #endif

@@ -85,20 +85,22 @@ MACULA_ALWAYS_INLINE void draw_cells(global const float* block, const Tile* tile
     }
 }
 
-/* One work-item a tile of MACULA_DRAWN_TILE pixels squared. */
+/* One work-item a tile of MACULA_WIDE pixels and MACULA_DRAWN_TILE rows. It looks at the bounds of
+ * all blocks, so that wide ones are cheaper where there are few threads. */
 kernel void draw_mesh(global const WeierParams* restrict weier,
                       global const float* restrict outlines, global const float* restrict fronts,
                       global const int* restrict bounds, uint rows, global uint* restrict keys) {
     const uint across = weier->support_width, down = weier->support_height;
     const uint pitch = weier->pitch, count = cell_blocks(across, down);
-    const uint plane = bounds_pitch(across, down), tiles = pitch / MACULA_DRAWN_TILE;
+    const uint plane = bounds_pitch(across, down);
+    const uint across_tiles = (pitch + MACULA_WIDE - 1u) / MACULA_WIDE;
     const uint index = (uint)get_global_id(0), stride = MACULA_OUTLINE_FIELDS * 16u;
     Tile tile;
-    tile.left = (int)(index % tiles * MACULA_DRAWN_TILE);
-    tile.top = (int)(index / tiles * MACULA_DRAWN_TILE);
+    tile.left = (int)(index % across_tiles * MACULA_WIDE);
+    tile.top = (int)(index / across_tiles * MACULA_DRAWN_TILE);
     if (tile.top >= (int)rows)
         return;
-    tile.right = tile.left + (int)MACULA_DRAWN_TILE;
+    tile.right = min(tile.left + (int)MACULA_WIDE, (int)pitch);
     tile.bottom = tile.top + (int)MACULA_DRAWN_TILE;
     for (int y = tile.top; y < tile.bottom; ++y)
         for (int x = tile.left; x < tile.right; x += 16)

@@ -7,6 +7,7 @@
 #include "shared/bvh.h"
 #include "shared/camera.h"
 #include "shared/lens.h"
+#include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
 #include "shared/weier.h"
@@ -87,6 +88,12 @@
     STRUCT(LensParams)                                                                             \
     MEMBER(LensParams, scale_x)                                                                    \
     MEMBER(LensParams, most)                                                                       \
-    MEMBER(LensParams, k)
+    MEMBER(LensParams, k)                                                                          \
+    STRUCT(LogPolarParams)                                                                         \
+    MEMBER(LogPolarParams, alpha)                                                                  \
+    MEMBER(LogPolarParams, pitch)                                                                  \
+    STRUCT(Fovea)                                                                                  \
+    MEMBER(Fovea, log_far)                                                                         \
+    MEMBER(Fovea, first_column)
 
 #endif

@@ -18,7 +18,8 @@ static inline Uint instance_of_triangle(global const Instance* instances, uint c
         const Uint next = low + step;
         const Uint kept = next < count ? next : splat_uint(0u);
         const Uint first = MACULA_GATHER(uint, instances, kept, .first_triangle);
-        low = (next < count) & (first <= triangle) ? next : low;
+        const Mask before = (next < count) & (first <= triangle);
+        low = before ? next : low;
     }
     return low;
 }

@@ -171,6 +171,13 @@ static inline void write_material(const SurfaceOutputs* out, const Hits* h, cons
     }
 }
 
+/* The width of a sample's cone at depth 1; `spreads`: in pixels, null where all are one pixel. */
+static inline Real spread_of(global const float* spreads, uint first,
+                             global const FrameParams* frame) {
+    const Real pixels = spreads ? load_reals(spreads, first) : splat(1.0f);
+    return pixels * frame->pixel_spread;
+}
+
 /* One work-item for MACULA_LANES ray slots. */
 kernel void resolve_surface(
     global const FrameParams* restrict frame, global const RayBlock* restrict rays,
@@ -179,10 +186,11 @@ kernel void resolve_surface(
     global const SurfaceTriangle* restrict triangles, global const SurfaceVertex* restrict vertices,
     global const SurfaceMaterial* restrict materials, global const ImageTexture* restrict textures,
     global const ImageLevel* restrict levels, global const uint* restrict texels,
-    global const float* restrict decode, global float* restrict depth,
-    global float4* restrict position, global float4* restrict geometric_normal,
-    global float4* restrict shading_normal, global float4* restrict albedo,
-    global float4* restrict specular, global float4* restrict emission,
+    global const float* restrict decode, global const float* restrict spreads,
+    global float* restrict depth, global float4* restrict position,
+    global float4* restrict geometric_normal, global float4* restrict shading_normal,
+    global float4* restrict albedo, global float4* restrict specular,
+    global float4* restrict emission,
     global uint* restrict triangle, global uint* restrict material,
     global float2* restrict motion) {
     const uint first = first_of_item();
@@ -213,7 +221,8 @@ kernel void resolve_surface(
     surface_point(&a, &b, &c, &placement, h.u, h.v, h.direction, &s);
     write_geometry(&out, &h, &s, of_hit);
     /* t along a primary ray is the depth, and the cone's width grows with the depth. */
-    const Real lod = surface_lod(&s, h.t * frame->pixel_spread, h.direction);
+    const Real spread = spread_of(spreads, first, frame);
+    const Real lod = surface_lod(&s, h.t * spread, h.direction);
     const TextureTables tables = {textures, levels, texels, decode};
     write_material(&out, &h, &s, &tables, materials, of_hit, frame->background, lod);
     if (motion) {

@@ -71,6 +71,17 @@ for scene in cornell whitted tunnel_maps; do
   done
 done
 
+# Three frames of a moving view: the second and third read what the ones before left.
+while read -r method _; do
+  moving=(atrium --size 96x64 --frames 300:303 --lights area --method "$method" --device 0)
+  expected=$(hashes POCL_DEVICES=pthread -- "${moving[@]}")
+  for runtime in "${runtimes[@]}"; do
+    read -ra environment <<<"${runtime#*|}"
+    compare "method $method on ${runtime%%|*}" "$expected" \
+      "$(hashes "${environment[@]}" -- "${moving[@]}")"
+  done
+done < <("$macula" explain)
+
 expected=$(hashes POCL_DEVICES=pthread -- atrium --size 160x120 --frames 0:1 --lights ao --device 0)
 while read -r variant; do
   compare "atrium with variant $variant" "$expected" \

@@ -25,6 +25,7 @@ struct WeierSetup {
     stage::WeierOptions weier;
     std::string method = "weier";
     float lowres_scale = 0.46f;
+    stage::LogPolarOptions log_polar;
 };
 
 class WeierFrames {
@@ -38,7 +39,7 @@ class WeierFrames {
           graph_(method::find_method(setup.method)
                      .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
                             setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_},
-                           {setup.lights, setup.weier, setup.lowres_scale})) {
+                           {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
         graph_.compile(device, outputs);

@@ -1,0 +1,20 @@
+#include "host/app/log_polar_options.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace macula::app {
+
+void add_log_polar_options(CLI::App& command, stage::LogPolarOptions& options) {
+    const auto number = [&](const char* name, float& value, const char* meaning) {
+        command.add_option(name, value, meaning)->capture_default_str()->group("Method logpolar");
+    };
+    number("--alpha", options.alpha, "Of the kernel function K(x) = x^alpha, 1..16");
+    number("--sigma", options.sigma, "Pixels for a texel of the buffer along each axis, 1..16");
+    number("--disk", options.disk, "Radius of the foveal disk in half diagonals of the image");
+    number("--disk-degrees", options.disk_degrees, "The same in degrees; 0: --disk counts");
+    number("--disk-fade", options.fade, "Part of the radius in which the disk fades out, 0..1");
+}
+
+} // namespace macula::app

@@ -1,0 +1,168 @@
+#include "host/stage/log_polar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "host/kernel/prefix_sum.hpp"
+#include "lib/camera.h"
+#include "shared/ray.h"
+
+namespace macula::stage {
+namespace {
+
+constexpr const char* kGenerate = "generate/log_polar";
+
+void require(bool holds, const char* what) {
+    if (!holds)
+        throw std::invalid_argument(std::string("method logpolar: ") + what);
+}
+
+void check(const LogPolarOptions& o) {
+    require(o.alpha >= 1.0f && o.alpha <= 16.0f, "alpha must be 1 to 16");
+    require(o.sigma >= 1.0f && o.sigma <= 16.0f, "sigma must be 1 to 16");
+    require(o.disk >= 0.0f && o.disk <= 10.0f, "the disk's radius must be 0 to 10 half diagonals");
+    require(o.disk_degrees >= 0.0f && o.disk_degrees < 80.0f,
+            "the disk's radius must be 0 to 80 degrees");
+    require(o.fade >= 0.0f && o.fade <= 1.0f, "the disk's fade must be 0 to 1");
+}
+
+std::uint32_t texels(std::uint32_t pixels, float sigma) {
+    return std::max(static_cast<std::uint32_t>(std::lround(pixels / sigma)), 4u);
+}
+
+frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
+    return {name, 4, kit.packets()};
+}
+
+} // namespace
+
+shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width,
+                                   std::uint32_t height) {
+    check(o);
+    shared::LogPolarParams p{};
+    p.width = texels(width, o.sigma);
+    p.height = texels(height, o.sigma);
+    p.alpha = o.alpha;
+    p.inverse_alpha = 1.0f / o.alpha;
+    p.disk = o.disk;
+    p.disk_tangent = std::tan(o.disk_degrees * std::numbers::pi_v<float> / 180.0f);
+    p.fade = o.fade;
+    p.pitch = p.width + 2;
+    p.capacity = shared::slot_count(width, height);
+    return p;
+}
+
+void LogPolarBuffer::prepare(const Kit& kit) {
+    if (!params_buffer)
+        params_buffer = kit.device.upload(std::span(&params_, 1), "parameters of the method");
+}
+
+std::uint32_t LogPolarKit::disk_packets() const {
+    return kit.slots() / MACULA_RAY_BLOCK;
+}
+
+std::uint32_t LogPolarKit::packets() const {
+    const shared::LogPolarParams& p = buffer->params();
+    return disk_packets() + shared::slot_count(p.width, p.height) / MACULA_RAY_BLOCK;
+}
+
+frame::Stage place_fovea(const LogPolarKit& kit) {
+    frame::Stage stage;
+    stage.name = "place the fovea";
+    stage.writes = {{"fovea", sizeof(shared::Fovea), 1}};
+    stage.prepare = [kit, name = stage.name] {
+        kit.buffer->prepare(kit.kit);
+        auto kernel =
+            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "place_fovea", kit.kit.device);
+        return [kit, name, kernel](frame::Run& run) mutable {
+            kernel.set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"])
+                .launch(name, {1}, {1});
+        };
+    };
+    return stage;
+}
+
+frame::Stage choose_samples(const LogPolarKit& kit) {
+    frame::Stage stage;
+    stage.name = "choose samples";
+    stage.reads = {"fovea"};
+    stage.writes = {mask_of_packets(kit, "sampling masks"),
+                    mask_of_packets(kit, "list offsets"),
+                    {"list length", 4, 1},
+                    {"log-polar colour", 16, kit.buffer->texels()}};
+    stage.prepare = [kit, name = stage.name] {
+        kit.buffer->prepare(kit.kit);
+        auto choose =
+            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "choose_samples", kit.kit.device);
+        auto sum =
+            std::make_shared<kernel::PrefixSum>(kit.kit.library, kit.kit.device, kit.packets());
+        const std::uint32_t packets = kit.packets();
+        const compute::Buffer count =
+            kit.kit.device.upload(std::span(&packets, 1), "number of packets");
+        return [kit, name, choose, sum, count](frame::Run& run) mutable {
+            // The counts become their own offsets.
+            choose
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
+                     kit.disk_packets(), run["sampling masks"], run["list offsets"],
+                     run["log-polar colour"])
+                .launch(name, {kit.packets()}, {kGroup});
+            sum->exclusive(run["list offsets"], count, run["list offsets"], run["list length"],
+                           "order the list");
+        };
+    };
+    return stage;
+}
+
+frame::Stage log_polar_rays(const LogPolarKit& kit) {
+    frame::Stage stage;
+    stage.name = "generate log-polar rays";
+    stage.reads = {"fovea", "sampling masks", "list offsets", "list length"};
+    stage.writes = {
+        {"primary rays", sizeof(shared::RayBlock), kit.disk_packets()},
+        per_slot(kit.kit, "pixel of slot", 4),
+        per_slot(kit.kit, "spread of slot", 4),
+        {"ray count", 4, 1},
+    };
+    stage.prepare = [kit, name = stage.name] {
+        auto kernel = kit.kit.library.kernel(kernel::VariantKey(kGenerate),
+                                             "generate_log_polar_rays", kit.kit.device);
+        return [kit, name, kernel](frame::Run& run) mutable {
+            kernel
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
+                     kit.disk_packets(), run.sample(), run["sampling masks"], run["list offsets"],
+                     run["list length"], run["primary rays"], run["pixel of slot"],
+                     run["spread of slot"], run["ray count"], kit.kit.ray_totals,
+                     static_cast<std::uint32_t>(kernel::RayClass::sparse))
+                .launch(name, {kit.packets()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+frame::Stage remap_log_polar(const LogPolarKit& kit) {
+    frame::Stage stage;
+    stage.name = "remap";
+    stage.reads = {"fovea", "ray count", "pixel of slot", "sampled colour", "log-polar colour"};
+    stage.writes = {per_pixel(kit.kit, "colour", 16)};
+    stage.prepare = [kit, name = stage.name] {
+        auto place = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar"), "place_samples",
+                                            kit.kit.device);
+        auto remap = kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
+        return [kit, name, place, remap](frame::Run& run) mutable {
+            const compute::Buffer& texels = run["log-polar colour"];
+            place
+                .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
+                     run["sampled colour"], run["colour"], texels)
+                .launch("place samples", {kit.kit.slots()}, {kGroup});
+            remap
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"], texels,
+                     run["colour"])
+                .launch(name, kit.kit.lane_items(kit.kit.slots()), kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+} // namespace macula::stage
