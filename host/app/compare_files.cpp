@@ -100,7 +100,7 @@ Pattern pattern_of_folder(const fs::path& folder, const std::string& extension) 
     const std::string stem = fs::path(names.front()).stem().string();
     std::size_t last = stem.find_last_not_of("0123456789");
     last = last == std::string::npos ? 0 : last + 1;
-    const Pattern pattern{folder, stem.substr(0, last), extension, stem.size() - last};
+    Pattern pattern{folder, stem.substr(0, last), extension, stem.size() - last};
     for (const std::string& name : names) {
         if (!pattern.number_of(name))
             throw std::runtime_error(
@@ -157,6 +157,7 @@ std::vector<FrameList> list_frames(const std::vector<std::string>& names,
         return !fs::is_directory(name) || has_kind(name, ".exr");
     });
     std::vector<Found> all;
+    all.reserve(names.size());
     for (const std::string& name : names)
         all.push_back(find(name, exr ? ".exr" : ".png"));
     const bool sequence = all.front().list.sequence;

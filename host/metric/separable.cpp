@@ -42,11 +42,11 @@ FilteredRows filter_rows(const Plane& in, const Window& window, const Taps& taps
 void filter_column_row(const FilteredRows& in, std::uint32_t y, std::uint32_t height,
                        const Taps& taps, std::span<float> out) {
     std::fill(out.begin(), out.end(), 0.0f);
-    const int radius = taps.radius();
-    for (int k = -radius; k <= radius; ++k) {
-        const auto source = static_cast<std::uint32_t>(clamped(std::int64_t{y} + k, height));
-        add_scaled(out, in.plane.row(source - in.first_row),
-                   taps.weights[static_cast<std::size_t>(k + radius)]);
+    const std::int64_t first = std::int64_t{y} - taps.radius();
+    for (std::size_t k = 0; k < taps.weights.size(); ++k) {
+        const auto source =
+            static_cast<std::uint32_t>(clamped(first + static_cast<std::int64_t>(k), height));
+        add_scaled(out, in.plane.row(source - in.first_row), taps.weights[k]);
     }
 }
 

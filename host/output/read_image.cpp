@@ -86,6 +86,11 @@ class Input {
                 metric::kMaxPixels / static_cast<std::size_t>(s.height))
             fail(path_, fmt::format("{} x {} pixels: 1 to {} in all were expected", s.width,
                                     s.height, metric::kMaxPixels));
+        if (s.x != s.full_x || s.y != s.full_y || s.width != s.full_width ||
+            s.height != s.full_height)
+            fail(path_, fmt::format("it is a crop: {} x {} pixels at ({}, {}) of {} x {}", s.width,
+                                    s.height, s.x - s.full_x, s.y - s.full_y, s.full_width,
+                                    s.full_height));
     }
 
     int find(const char* channel) const {
@@ -96,9 +101,19 @@ class Input {
 
     void check_type(int channel) const {
         const OIIO::TypeDesc type = spec().channelformat(channel);
-        const bool suits = kind_ == ImageKind::png
-                               ? type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::UINT16
-                               : type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT;
+        bool suits = false;
+        switch (type.basetype) {
+        case OIIO::TypeDesc::UINT8:
+        case OIIO::TypeDesc::UINT16:
+            suits = kind_ == ImageKind::png;
+            break;
+        case OIIO::TypeDesc::HALF:
+        case OIIO::TypeDesc::FLOAT:
+            suits = kind_ == ImageKind::exr;
+            break;
+        default:
+            break;
+        }
         if (!suits)
             fail(path_,
                  fmt::format("channel {} holds {} values; {} were expected",

@@ -141,6 +141,17 @@ TEST_F(ReadImage, RefusesWhatIsNoPicture) {
     EXPECT_THAT(refusal("bitmap.bmp"), HasSubstr("a bmp file; PNG or EXR was expected"));
 }
 
+TEST_F(ReadImage, RefusesACropOfALargerPicture) {
+    write_exr("crop.exr", noise(8, 6, 7));
+    std::string bytes = bytes_of("crop.exr");
+    const std::string name("displayWindow\0box2i\0", 20);
+    const std::size_t at = bytes.find(name);
+    ASSERT_NE(at, std::string::npos);
+    bytes[at + name.size() + 4 + 8] = 20; // its rightmost column
+    write_bytes("crop.exr", bytes);
+    EXPECT_THAT(refusal("crop.exr"), HasSubstr("a crop: 8 x 6 pixels at (0, 0) of 21 x 6"));
+}
+
 TEST_F(ReadImage, RefusesAbsurdSizesBeforeTakingMemory) {
     write_bytes("huge.png", PngBytes::make(60000, 60000, 8, 2, {"\x01\x02\x03"}));
     EXPECT_THAT(refusal("huge.png"),
