@@ -10,14 +10,23 @@
 
 #include "host/frame/lights.hpp"
 #include "host/report/quality_case.hpp"
+#include "host/stage/foveated.hpp"
 
 namespace macula::bench {
 
-// A foveal region configuration (Weier et al. 2016, section 4.2.1).
-struct QualityRegion {
-    std::string name; // "medium", or as it was given
-    float r0 = 10.0f, r1 = 20.0f, p_min = 0.05f;
+// How weier is to work: a foveal region configuration (Weier et al. 2016, section 4.2.1) and other
+// parameters.
+struct QualityWeier {
+    std::string frc = "medium";  // or as it was given
+    std::string changes;         // as parse_weier_changes() takes them; empty: none
+    stage::WeierOptions options; // both, in numbers
+
+    std::string name() const { return changes.empty() ? frc : frc + " " + changes; }
 };
+
+// "KEY=VALUE,..." with eps-depth, eps-lum, eps-edge, eps-stretch, eps-merge, k-min, k-max or t-max,
+// which mean what they do as options of `macula render`. Throws std::invalid_argument.
+void parse_weier_changes(const std::string& list, stage::WeierOptions& options);
 
 struct QualityOptions {
     std::string device;
@@ -26,7 +35,7 @@ struct QualityOptions {
     std::vector<frame::LightMode> lights; // empty: area
     // Of method::methods(), with their defaults but for what follows; empty: full, weier, lowres.
     std::vector<std::string> methods;
-    std::vector<QualityRegion> regions;  // of weier, and of lowres that equals it; empty: medium
+    std::vector<QualityWeier> weier;     // and what lowres is to equal; empty: medium
     std::vector<std::uint32_t> spp;      // of full; empty: 1
     std::vector<std::string> equal;      // of lowres: samples, time; empty: both
     std::string display = "dk2";         // its middle eye is rendered

@@ -51,18 +51,18 @@ void check_word(const char* option, const std::string& word,
 std::string QualityRequest::name() const {
     if (method == "full")
         return spp == 1 ? "full" : fmt::format("full, {} spp", spp);
-    if (!region)
+    if (!weier)
         return method;
     if (method == "weier")
-        return "weier " + region->name;
-    return region->name == "medium" ? fmt::format("lowres, equal {}", equal)
-                                    : fmt::format("lowres, equal {}, {}", equal, region->name);
+        return "weier " + weier->name();
+    return weier->name() == "medium" ? fmt::format("lowres, equal {}", equal)
+                                     : fmt::format("lowres, equal {}, {}", equal, weier->name());
 }
 
 std::vector<QualityRequest> quality_requests(const QualityOptions& options) {
     const std::vector<std::string> equals = {"samples", "time"};
     const auto methods = or_default(options.methods, {"full", "weier", "lowres"});
-    const auto regions = or_default(options.regions, {{"medium", 10.0f, 20.0f, 0.05f}});
+    const auto all_weier = or_default(options.weier, {QualityWeier{}});
     for (const std::string& method : methods)
         method::find_method(method);
     for (const std::string& equal : options.equal)
@@ -75,13 +75,13 @@ std::vector<QualityRequest> quality_requests(const QualityOptions& options) {
         for (const std::uint32_t spp : or_default(options.spp, {1u}))
             requests.push_back({"full", spp, std::nullopt, ""});
     }
-    for (const QualityRegion& region : regions) {
+    for (const QualityWeier& weier : all_weier) {
         if (asked("weier"))
-            requests.push_back({"weier", 1, region, ""});
+            requests.push_back({"weier", 1, weier, ""});
         if (!asked("lowres"))
             continue;
         for (const std::string& equal : or_default(options.equal, equals))
-            requests.push_back({"lowres", 1, region, equal});
+            requests.push_back({"lowres", 1, weier, equal});
     }
     for (const std::string& method : methods) {
         if (method != "full" && method != "weier" && method != "lowres")
@@ -103,15 +103,17 @@ report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     report::Parameters& p = result.parameters;
     if (request.method == "full")
         p.spp = request.spp;
-    if (!request.region)
+    if (!request.weier)
         return result;
-    p.frc = request.region->name;
-    p.p_min = short_double(request.region->p_min);
-    p.r0 = finite(request.region->r0);
-    p.r1 = finite(request.region->r1);
+    p.frc = request.weier->frc;
+    p.p_min = short_double(request.weier->options.p_min);
+    p.r0 = finite(request.weier->options.r0);
+    p.r1 = finite(request.weier->options.r1);
+    if (!request.weier->changes.empty())
+        p.changes = request.weier->changes;
     if (request.method == "lowres") {
         p.equal = request.equal;
-        p.equal_to = QualityRequest{"weier", 1, request.region, ""}.name();
+        p.equal_to = QualityRequest{"weier", 1, request.weier, ""}.name();
     }
     return result;
 }
@@ -121,23 +123,20 @@ render::Renderer QualityGroup::make(const QualityRequest& request, double scale)
         engine.method = request.method;
         engine.samples_per_pixel = request.spp;
         engine.lowres_scale = static_cast<float>(scale);
-        if (request.region) {
-            engine.weier.r0 = request.region->r0;
-            engine.weier.r1 = request.region->r1;
-            engine.weier.p_min = request.region->p_min;
-        }
+        if (request.weier)
+            engine.weier = request.weier->options;
     });
 }
 
 Sequence QualityGroup::fly_equal(const QualityRequest& request, report::Parameters& parameters) {
-    const std::string& region = request.region->name;
-    if (!weier_samples_.contains(region)) {
-        render::Renderer weier = make({"weier", 1, request.region, ""}, 1.0);
-        weier_samples_[region] = flight_.fly({&weier, 1}).front().samples;
+    const std::string name = request.weier->name();
+    if (!weier_samples_.contains(name)) {
+        render::Renderer weier = make({"weier", 1, request.weier, ""}, 1.0);
+        weier_samples_[name] = flight_.fly({&weier, 1}).front().samples;
     }
     const scene::Display& display = flight_.display();
     const double pixels = static_cast<double>(display.width) * display.height;
-    parameters.scale = std::clamp(std::sqrt(weier_samples_[region] / pixels), kLeastScale, 1.0);
+    parameters.scale = std::clamp(std::sqrt(weier_samples_[name] / pixels), kLeastScale, 1.0);
     if (request.equal == "time")
         return fly_equal_time(request, parameters);
     render::Renderer lowres = make(request, *parameters.scale);
@@ -149,7 +148,7 @@ Sequence QualityGroup::fly_equal_time(const QualityRequest& request,
                                       report::Parameters& parameters) {
     for (int tries = 1;; ++tries) {
         std::vector<render::Renderer> both;
-        both.push_back(make({"weier", 1, request.region, ""}, 1.0));
+        both.push_back(make({"weier", 1, request.weier, ""}, 1.0));
         both.push_back(make(request, *parameters.scale));
         std::vector<Sequence> flown = flight_.fly(both);
         const double ratio = metric::median(metric::ratios(flown[1].ms(), flown[0].ms()));
@@ -194,7 +193,7 @@ report::QualityCase QualityGroup::run(const QualityRequest& request) {
     result.samples = sequence.samples;
     result.rays = sequence.rays;
     if (request.method == "weier")
-        weier_samples_[request.region->name] = sequence.samples;
+        weier_samples_[request.weier->name()] = sequence.samples;
     progress_.note(fmt::format("{}, {}: scores", flight_.name(), request.name()));
     score(result, sequence);
     result.series.ms = sequence.ms();

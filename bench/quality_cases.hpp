@@ -12,10 +12,10 @@ namespace macula::bench {
 
 // One method with its parameters.
 struct QualityRequest {
-    std::string method;                  // of method::methods()
-    std::uint32_t spp = 1;               // of full
-    std::optional<QualityRegion> region; // of weier; of lowres that of the weier which it equals
-    std::string equal;                   // of lowres: samples or time
+    std::string method;                // of method::methods()
+    std::uint32_t spp = 1;             // of full
+    std::optional<QualityWeier> weier; // of weier; of lowres that which it equals
+    std::string equal;                 // of lowres: samples or time
 
     std::string name() const; // for people
 };
@@ -36,7 +36,7 @@ class QualityGroup {
 
   private:
     render::Renderer make(const QualityRequest& request, double scale) const;
-    // lowres with a region: as many samples as weier takes, or, from there, as much time.
+    // lowres: as many samples as weier takes, or, from there, as much time.
     Sequence fly_equal(const QualityRequest& request, report::Parameters& parameters);
     Sequence fly_equal_time(const QualityRequest& request, report::Parameters& parameters);
     void score(report::QualityCase& result, const Sequence& sequence);
@@ -46,7 +46,7 @@ class QualityGroup {
     frame::LightMode lights_;
     const QualityProgress& progress_;
     References references_;
-    std::map<std::string, double> weier_samples_; // a frame, by region
+    std::map<std::string, double> weier_samples_; // a frame, by name
 };
 
 } // namespace macula::bench

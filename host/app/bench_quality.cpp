@@ -26,7 +26,7 @@ using report::QualityCase;
 
 struct Options {
     QualityOptions quality;
-    std::vector<std::string> lights, regions;
+    std::vector<std::string> lights, regions, changes;
     std::string size;
     std::filesystem::path out, resume;
     bool json = false, no_reference_cache = false;
@@ -57,6 +57,9 @@ void add_what(CLI::App& command, Options& options) {
     command
         .add_option("--spp", q.spp, "Samples per pixel of full, separated by commas (default 1)")
         ->delimiter(',');
+    command.add_option("--parameters", options.changes,
+                       "Of weier, as KEY=VALUE,... with eps-depth, eps-lum, eps-edge, eps-stretch, "
+                       "eps-merge, k-min, k-max, t-max of render; may be repeated, \"\": none");
     command
         .add_option("--equal", q.equal,
                     "What lowres has in common with weier: samples, time (default: each)")
@@ -112,10 +115,14 @@ QualityOptions parse(const Options& options) {
                 fmt::format("--lights \"{}\": point, area or ao was expected", name));
         quality.lights.push_back(*mode);
     }
-    for (const std::string& name : options.regions) {
-        stage::WeierOptions region;
-        parse_frc(name, region);
-        quality.regions.push_back({name, region.r0, region.r1, region.p_min});
+    const std::vector<std::string> medium = {"medium"}, none = {""};
+    for (const std::string& region : options.regions.empty() ? medium : options.regions) {
+        for (const std::string& changes : options.changes.empty() ? none : options.changes) {
+            bench::QualityWeier weier{region, changes, {}};
+            parse_frc(region, weier.options);
+            bench::parse_weier_changes(changes, weier.options);
+            quality.weier.push_back(weier);
+        }
     }
     if (!options.size.empty()) {
         ViewOptions view;

@@ -42,9 +42,9 @@ constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 
 
 // A packet's rays, frustum and results, in bytes: about 22 vectors of 64.
 constexpr std::uint32_t kPacket = 22 * 64;
-// A ray of a stream, among its chunks and sorted.
-constexpr std::uint32_t kStreamRay = 68;
-constexpr std::uint32_t kSortedRay = 35;
+// A ray of a stream: its best hit in its chunk, and its row and class among those that are sorted.
+constexpr std::uint32_t kStreamRay = 16;
+constexpr std::uint32_t kSortedRay = 65;
 
 constexpr RayClassSet bit(RayClass ray_class) {
     return 1u << static_cast<unsigned>(ray_class);

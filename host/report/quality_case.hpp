@@ -80,6 +80,7 @@ struct Parameters {
     std::optional<std::uint32_t> spp;
     std::optional<std::string> frc;
     std::optional<double> r0, r1, p_min; // degrees, degrees, part; r0 and r1 none: infinite
+    std::optional<std::string> changes;  // of weier: "eps-lum=0.2,k-min=0.05"
     std::optional<double> scale;         // of lowres, along each axis
     // lowres: "samples" or "time", and the case that has as many or takes as long.
     std::optional<std::string> equal, equal_to;

@@ -114,6 +114,7 @@ void visit(Visitor& v, T& r) {
         v("r0", r.r0);
         v("r1", r.r1);
         v("p_min", r.p_min);
+        v("changes", r.changes);
         v("scale", r.scale);
         v("equal", r.equal);
         v("equal_to", r.equal_to);

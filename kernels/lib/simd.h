@@ -61,6 +61,64 @@ static inline float8 least_lanes16(const float16 v[8]) {
 #define MACULA_FETCH_TO_WRITE(p, offset)
 #endif
 
+/* Lane lane[i] of v in lane i, and the lanes of v that `keep` marks side by side from lane 0 on;
+ * what follows them is of no meaning. Instructions of AVX-512, which compilers do not find by
+ * themselves; elsewhere a store of each lane. */
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+typedef int Native8 __attribute__((vector_size(32)));
+#define MACULA_NATIVE8(v) __builtin_astype(v, Native8)
+
+static inline int8 permuted8(int8 v, int8 lane) {
+    return __builtin_astype(__builtin_ia32_permvarsi256(MACULA_NATIVE8(v), MACULA_NATIVE8(lane)),
+                            int8);
+}
+
+static inline int8 compressed8(int8 v, int8 keep) {
+    return __builtin_astype(
+        __builtin_ia32_compresssi256_mask(MACULA_NATIVE8(v), MACULA_NATIVE8((int8)(0)),
+                                          __builtin_ia32_cvtd2mask256(MACULA_NATIVE8(keep))),
+        int8);
+}
+#else
+static inline int8 permuted8(int8 v, int8 lane) {
+    int from[8], of[8], to[8];
+    vstore8(v, 0, from);
+    vstore8(lane, 0, of);
+    for (uint i = 0u; i < 8u; ++i)
+        to[i] = from[of[i]];
+    return vload8(0, to);
+}
+
+static inline int8 compressed8(int8 v, int8 keep) {
+    int from[8], kept[8], to[8] = {0};
+    vstore8(v, 0, from);
+    vstore8(keep, 0, kept);
+    uint count = 0u;
+    for (uint i = 0u; i < 8u; ++i)
+        if (kept[i] != 0)
+            to[count++] = from[i];
+    return vload8(0, to);
+}
+#endif
+
+static inline int8 exchanged8(int8 v, int8 other, int8 takes_greater) {
+    const int8 less = v < other ? v : other, greater = v < other ? other : v;
+    return takes_greater ? greater : less;
+}
+
+/* The lanes in falling order (Batcher 1968: bitonic sorting). */
+static inline int8 sorted8(int8 v) {
+    const int8 first_of_2 = (int8)(-1, 0, -1, 0, -1, 0, -1, 0);
+    const int8 half_of_4 = (int8)(-1, -1, 0, 0, -1, -1, 0, 0);
+    const int8 half_of_8 = (int8)(-1, -1, -1, -1, 0, 0, 0, 0);
+    v = exchanged8(v, v.s10325476, first_of_2);
+    v = exchanged8(v, v.s32107654, half_of_4);
+    v = exchanged8(v, v.s10325476, first_of_2);
+    v = exchanged8(v, v.s76543210, half_of_8);
+    v = exchanged8(v, v.s23016745, half_of_4);
+    return exchanged8(v, v.s10325476, first_of_2);
+}
+
 /* The number of each lane. */
 #define MACULA_LANES8 ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
 #define MACULA_LANES16 ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))

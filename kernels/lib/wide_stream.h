@@ -8,82 +8,53 @@
 #include "lib/wide_push.h"
 #include "lib/wide_stream_leaf.h"
 
-/* Each level leaves at most seven siblings behind; a push writes all eight children. */
+/* Each level leaves at most seven siblings behind; a push writes eight children, and two entries
+ * lie below the first, so that the two on top can always be fetched. */
+#define MACULA_STREAM_BOTTOM 2u
 #define MACULA_STREAM_STACK (7 * MACULA_MAX_DEPTH + 16)
 
 /* Far planes are moved away by more than what box_interval adds to far distances, so that rays need
  * only one offset an axis (docs/arithmetic.md). */
 static inline float8 far_plane8(global const Wide8Node* node, uint axis, const StreamClass* c) {
-    const uint side = (c->octant >> axis) & 1u;
-    const float8 plane = vload8(0, node->plane[axis][side ^ 1u]);
-    const float8 pad = fma(fabs(plane), (float8)(0x1p-19f), (float8)(c->margin));
-    return side != 0u ? plane - pad : plane + pad;
+    return vload8(0, node->plane[axis][((c->octant >> axis) & 1u) ^ 1u]) + (float8)(c->pad[axis]);
 }
 
 static inline float8 near_plane8(global const Wide8Node* node, uint axis, const StreamClass* c) {
     return vload8(0, node->plane[axis][(c->octant >> axis) & 1u]);
 }
 
-/* What the rays find in a node. Lane c of `rays` is the mask of those that enter child c; children
- * are visited in the order of `key`, which differ; keys of those that no ray enters are negative.
- */
+/* What the rays find in a node. Lane c of `rays` is the mask of those that enter child c, lane c of
+ * `nearest` bounds the t at which one does. */
 typedef struct StreamChildren {
     int8 rays;
-    int8 key;
+    float8 nearest;
 } StreamChildren;
 
-/* The child that most rays of an any-hit query enter comes first, else the one that is entered
- * first by some ray. */
-static inline StreamChildren enter_children8(global const Wide8Node* node, const Stream* s,
+static inline StreamChildren enter_children8(global const Wide8Node* node, const StreamRay* ray,
                                              const StreamClass* c, uint rays) {
-    const float8 near_plane_x = near_plane8(node, 0u, c), far_plane_x = far_plane8(node, 0u, c);
-    const float8 near_plane_y = near_plane8(node, 1u, c), far_plane_y = far_plane8(node, 1u, c);
-    const float8 near_plane_z = near_plane8(node, 2u, c), far_plane_z = far_plane8(node, 2u, c);
-    StreamChildren found;
-    found.rays = 0;
-    float8 nearest = MACULA_EMPTY;
-    int8 missing = 33;
+    const float16 near_x = twice(near_plane8(node, 0u, c)), far_x = twice(far_plane8(node, 0u, c));
+    const float16 near_y = twice(near_plane8(node, 1u, c)), far_y = twice(far_plane8(node, 1u, c));
+    const float16 near_z = twice(near_plane8(node, 2u, c)), far_z = twice(far_plane8(node, 2u, c));
+    int16 entered = 0;
+    float16 nearest = MACULA_EMPTY;
     do {
-        const uint k = first_bit(rays);
-        rays &= rays - 1u;
-        const float8 near_x = fma(near_plane_x, (float8)(s->r[0][k]), (float8)(s->n[0][k]));
-        const float8 near_y = fma(near_plane_y, (float8)(s->r[1][k]), (float8)(s->n[1][k]));
-        const float8 near_z = fma(near_plane_z, (float8)(s->r[2][k]), (float8)(s->n[2][k]));
-        const float8 far_x = fma(far_plane_x, (float8)(s->r[0][k]), (float8)(s->n[0][k]));
-        const float8 far_y = fma(far_plane_y, (float8)(s->r[1][k]), (float8)(s->n[1][k]));
-        const float8 far_z = fma(far_plane_z, (float8)(s->r[2][k]), (float8)(s->n[2][k]));
-        const float8 near = m_max8(m_max8(near_x, near_y), m_max8(near_z, (float8)(0.0f)));
-        const float8 far = m_min8(m_min8(far_x, far_y), m_min8(far_z, (float8)(s->t_max[k])));
-        const int8 enters = near <= far;
-        found.rays |= enters & (int8)((int)(1u << k));
-#if MACULA_ANY_HIT
-        missing += enters;
-#else
-        nearest = enters ? m_min8(nearest, near) : nearest;
-#endif
+        const RayPair pair = next_pair(&rays);
+        const float16 a = ray[pair.first].row, b = ray[pair.second].row;
+        const float16 rx = MACULA_OF_BOTH(a, b, s0), nx = MACULA_OF_BOTH(a, b, s3);
+        const float16 ry = MACULA_OF_BOTH(a, b, s1), ny = MACULA_OF_BOTH(a, b, s4);
+        const float16 rz = MACULA_OF_BOTH(a, b, s2), nz = MACULA_OF_BOTH(a, b, s5);
+        const float16 near = m_max(m_max(fma(near_x, rx, nx), fma(near_y, ry, ny)),
+                                   m_max(fma(near_z, rz, nz), (float16)(0.0f)));
+        const float16 far = m_min(m_min(fma(far_x, rx, nx), fma(far_y, ry, ny)),
+                                  m_min(fma(far_z, rz, nz), MACULA_OF_BOTH(a, b, s6)));
+        const int16 enters = near <= far;
+        entered |= enters & as_int16(MACULA_OF_BOTH(a, b, se));
+        nearest = enters ? m_min(nearest, near) : nearest;
     } while (rays != 0u);
-#if MACULA_ANY_HIT
-    const int8 key = missing << 3;
-#else
-    const int8 key = as_int8(nearest) & ~7;
-#endif
-    found.key = child_keys8(found.rays, key);
+    StreamChildren found;
+    found.rays = entered.lo | entered.hi;
+    found.nearest = m_min8(nearest.lo, nearest.hi);
     return found;
-}
-
-static inline uint push_rays(MaskedEntry* stack, uint depth, global const Wide8Node* node,
-                             const StreamChildren* found) {
-    const int8 place = push_places8(found->key);
-    stack += depth;
-    put_entry(stack, place.s0, (uint)node->child[0], found->rays.s0);
-    put_entry(stack, place.s1, (uint)node->child[1], found->rays.s1);
-    put_entry(stack, place.s2, (uint)node->child[2], found->rays.s2);
-    put_entry(stack, place.s3, (uint)node->child[3], found->rays.s3);
-    put_entry(stack, place.s4, (uint)node->child[4], found->rays.s4);
-    put_entry(stack, place.s5, (uint)node->child[5], found->rays.s5);
-    put_entry(stack, place.s6, (uint)node->child[6], found->rays.s6);
-    put_entry(stack, place.s7, (uint)node->child[7], found->rays.s7);
-    return depth + entered_children8(found->rays);
 }
 
 static inline void fetch_child(const TraceScene* scene, int child) {
@@ -103,24 +74,44 @@ static inline void fetch_child(const TraceScene* scene, int child) {
 #define MACULA_STREAM_CHUNKS 2u
 
 typedef struct StreamWalk {
-    MaskedEntry stack[MACULA_STREAM_STACK];
+    int child[MACULA_STREAM_STACK];
+    int rays[MACULA_STREAM_STACK]; /* those that enter the child */
     uint depth;
     uint answered; /* rays whose query is answered */
 } StreamWalk;
 
 static inline void start_walk(StreamWalk* walk, int root, uint rays) {
-    walk->stack[0].child = (uint)root;
-    walk->stack[0].mask = rays;
-    walk->depth = rays != 0u ? 1u : 0u;
+    for (uint i = 0u; i <= MACULA_STREAM_BOTTOM; ++i)
+        walk->child[i] = root;
+    walk->rays[MACULA_STREAM_BOTTOM] = (int)rays;
+    walk->depth = MACULA_STREAM_BOTTOM + (rays != 0u ? 1u : 0u);
     walk->answered = 0u;
+}
+
+/* Puts the children that are entered on the stack. The one that is entered first by some ray of a
+ * closest-hit query comes to lie on top; of any-hit queries the largest one, the node's first: to
+ * sort those costs more than it saves. */
+static inline void push_rays(StreamWalk* walk, global const Wide8Node* node,
+                             const StreamChildren* found) {
+    const int8 child = vload8(0, node->child);
+#if MACULA_ANY_HIT
+    const int8 enters = found->rays.s76543210 != 0;
+    vstore8(compressed8(child.s76543210, enters), 0, walk->child + walk->depth);
+    vstore8(compressed8(found->rays.s76543210, enters), 0, walk->rays + walk->depth);
+#else
+    const int8 order = sorted8(child_keys8(found->rays, as_int8(found->nearest) & ~7));
+    vstore8(permuted8(child, order), 0, walk->child + walk->depth);
+    vstore8(permuted8(found->rays, order), 0, walk->rays + walk->depth);
+#endif
+    walk->depth += entered_children8(found->rays);
 }
 
 /* Visits the node or leaf on top of the stack. */
 static inline void step_walk(const TraceScene* scene, Stream* s, const StreamClass* c,
                              StreamWalk* walk) {
-    const MaskedEntry entry = walk->stack[--walk->depth];
-    const uint left = entry.mask & ~walk->answered;
-    const int child = (int)entry.child;
+    const uint top = --walk->depth;
+    const uint left = (uint)walk->rays[top] & ~walk->answered;
+    const int child = walk->child[top];
     if (left == 0u)
         return;
     if (child < 0) {
@@ -128,20 +119,22 @@ static inline void step_walk(const TraceScene* scene, Stream* s, const StreamCla
         return;
     }
     global const Wide8Node* node = (global const Wide8Node*)scene->nodes + child;
-    const StreamChildren found = enter_children8(node, s, c, left);
-    const uint before = walk->depth;
-    walk->depth = push_rays(walk->stack, before, node, &found);
-    for (uint i = before; i < walk->depth; ++i)
-        fetch_child(scene, (int)walk->stack[i].child);
+    const StreamChildren found = enter_children8(node, s->ray, c, left);
+    push_rays(walk, node, &found);
+    /* A loop over all that were pushed would end at a branch that cannot be foreseen. */
+    fetch_child(scene, walk->child[walk->depth - 1u]);
+    fetch_child(scene, walk->child[walk->depth - 2u]);
 }
 
 /* `s` and `walk`: one for each chunk. */
 static inline void traverse_stream(const TraceScene* scene, Stream* s, const StreamClass* c,
                                    StreamWalk* walk) {
-    uint i = 0u;
-    while ((walk[0].depth | walk[1].depth) != 0u) {
-        i = walk[i ^ 1u].depth != 0u ? i ^ 1u : i;
-        step_walk(scene, s + i, c, walk + i);
+    while (((walk[0].depth ^ MACULA_STREAM_BOTTOM) | (walk[1].depth ^ MACULA_STREAM_BOTTOM)) !=
+           0u) {
+        if (walk[0].depth != MACULA_STREAM_BOTTOM)
+            step_walk(scene, s, c, walk);
+        if (walk[1].depth != MACULA_STREAM_BOTTOM)
+            step_walk(scene, s + 1, c, walk + 1);
     }
 }
 

@@ -7,8 +7,9 @@
 #define INACTIVE MACULA_STREAM_CLASSES
 #define BINS (MACULA_STREAM_CLASSES + 1u)
 
-/* The bins of a block of which `left` rays are in the queue. */
-static inline uchar16 bins_of(global const RayBlock* block, uint left) {
+/* The bins of a block of which `left` rays are in the queue. Raises the reach of the active ones.
+ */
+static inline uchar16 bins_of(global const RayBlock* block, uint left, float16* reach) {
     const float16 dx = bounded_direction16(vload16(0, block->direction_x));
     const float16 dy = bounded_direction16(vload16(0, block->direction_y));
     const float16 dz = bounded_direction16(vload16(0, block->direction_z));
@@ -16,18 +17,10 @@ static inline uchar16 bins_of(global const RayBlock* block, uint left) {
     const int16 octant = ((dx < 0.0f) & 1) | ((dy < 0.0f) & 2) | ((dz < 0.0f) & 4);
     const int16 ray_class = octant * 3 + dominant_axis16(dx, dy, dz);
     const int16 active = (t_min >= 0.0f) & (t_min <= t_max) & (MACULA_LANES16 < (int16)((int)left));
+    const float16 own = reach16(vload16(0, block->origin_x), vload16(0, block->origin_y),
+                                vload16(0, block->origin_z));
+    *reach = m_max(*reach, active ? own : *reach);
     return convert_uchar16(active ? ray_class : (int16)((int)INACTIVE));
-}
-
-static inline void copy_ray(global const RayBlock* block, uint lane, QueuedRays* q, uint to) {
-    q->o[0][to] = block->origin_x[lane];
-    q->o[1][to] = block->origin_y[lane];
-    q->o[2][to] = block->origin_z[lane];
-    q->d[0][to] = block->direction_x[lane];
-    q->d[1][to] = block->direction_y[lane];
-    q->d[2][to] = block->direction_z[lane];
-    q->t_min[to] = block->t_min[lane];
-    q->t_max[to] = block->t_max[lane];
 }
 
 /* A counting sort: bin b of the rays goes to [begin[b], begin[b + 1]), in order. */
@@ -35,8 +28,10 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
                              uint begin[BINS + 1u]) {
     uchar bin[MACULA_RAYS_PER_ITEM];
     uint next[BINS];
+    float16 reach = 0x1p-20f;
     for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK)
-        vstore16(bins_of(blocks + i / MACULA_RAY_BLOCK, count - i), 0, bin + i);
+        vstore16(bins_of(blocks + i / MACULA_RAY_BLOCK, count - i, &reach), 0, bin + i);
+    q->reach = greatest_lane16(reach);
     for (uint b = 0u; b < BINS; ++b)
         next[b] = 0u;
     for (uint i = 0u; i < count; ++i)
@@ -46,16 +41,16 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
         begin[b + 1u] = begin[b] + next[b];
         next[b] = begin[b];
     }
-    q->reach = 0x1p-20f;
-    for (uint i = 0u; i < count; ++i) {
-        const uint to = next[bin[i]]++;
-        copy_ray(blocks + i / MACULA_RAY_BLOCK, i % MACULA_RAY_BLOCK, q, to);
-        q->index[to] = (ushort)i;
-        const float reach = m_max(m_max(fabs(q->o[0][to]), fabs(q->o[1][to])), fabs(q->o[2][to]));
-        q->reach = bin[i] != INACTIVE && reach > q->reach ? reach : q->reach;
+    for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK) {
+        float16 row[MACULA_RAY_BLOCK];
+        prepare_rows(blocks + i / MACULA_RAY_BLOCK, i, row);
+        const uint lanes = count - i < MACULA_RAY_BLOCK ? count - i : MACULA_RAY_BLOCK;
+        for (uint lane = 0u; lane < lanes; ++lane) {
+            const uint b = bin[i + lane], to = next[b]++;
+            q->ray[to].row = row[lane];
+            q->ray[to].value[MACULA_ROW_BIT] = as_float(1u << (to - begin[b]) % MACULA_CHUNK);
+        }
     }
-    for (uint i = 0u; i < MACULA_STREAM_LANES; ++i)
-        copy_ray(blocks, 0u, q, count + i);
 }
 
 kernel void trace(TRACE_ARGUMENTS) {
@@ -73,9 +68,9 @@ kernel void trace(TRACE_ARGUMENTS) {
     sort_rays(rays + first / MACULA_RAY_BLOCK,
               rest < MACULA_RAYS_PER_ITEM ? rest : MACULA_RAYS_PER_ITEM, &queued, begin);
     for (uint i = 0u; i < INACTIVE; ++i)
-        trace_class(&scene, &queued, begin[i], begin[i + 1u], i, first, results);
+        trace_class(&scene, rays, &queued, begin[i], begin[i + 1u], i, first, results);
     for (uint i = begin[INACTIVE]; i < begin[BINS]; ++i) {
-        const TraceHit miss = no_hit(queued.t_max[i]);
-        store_result(results, first + queued.index[i], &miss);
+        const TraceHit miss = no_hit(queued.ray[i].value[MACULA_ROW_T_MAX]);
+        store_result(results, first + queue_index(queued.ray + i), &miss);
     }
 }

@@ -197,6 +197,25 @@ TEST(BenchQualityNames, FilesHaveNoOddCharacters) {
     EXPECT_EQ(pictured, 2);
 }
 
+TEST_F(BenchQuality, ParametersOfWeierMakeACaseOfTheirOwn) {
+    QualityOptions options = small();
+    options.methods = {"weier"};
+    bench::QualityWeier eager;
+    eager.changes = "eps-lum=0.01,t-max=10";
+    bench::parse_weier_changes(eager.changes, eager.options);
+    EXPECT_EQ(eager.options.t_max, 10U);
+    options.weier = {bench::QualityWeier{}, eager};
+    const auto cases = run_quality(options, {});
+    ASSERT_EQ(cases.size(), 2U);
+    EXPECT_EQ(cases[1].name, "weier medium eps-lum=0.01,t-max=10");
+    EXPECT_NE(identity(cases[0]), identity(cases[1]));
+    EXPECT_GT(cases[1].samples, cases[0].samples);
+    stage::WeierOptions weier;
+    for (const char* wrong : {"eps-lum", "eps-lum=", "=1", "eps-lum=x", "eps-lum=1x", "eps-lum=nan",
+                              "hue=1", "t-max=1.5", "t-max=-1", "k-min=1,,k-max=1"})
+        EXPECT_THROW(bench::parse_weier_changes(wrong, weier), std::invalid_argument) << wrong;
+}
+
 TEST_F(BenchQuality, WhatMakesNoSenseIsRefused) {
     const auto refused = [&](auto change) {
         QualityOptions options = small();
