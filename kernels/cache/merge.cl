@@ -134,8 +134,7 @@ typedef struct Faults {
  * nothing, so that no device meets a denormal. */
 MACULA_ALWAYS_INLINE float4 worth_when_read(const Packet* p, const Sources* sources, uint row,
                                             float4 rho) {
-    const int4 between =
-        (vload4(row, sources->lanes.to_x) != 0.0f) | (vload4(row, sources->lanes.to_y) != 0.0f);
+    const int4 between = vload4(row, sources->lanes.between);
     const float4 less = rho * p->weier->resampled_worth;
     return between ? (less < 0x1p-20f ? (float4)(0.0f) : less) : rho;
 }
