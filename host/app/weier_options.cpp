@@ -71,6 +71,8 @@ void WeierOptions::add_to(CLI::App& command) {
     number("--k-min", engine.k_min, "Least weight of a sample after one frame");
     number("--k-max", engine.k_max, "Least weight after t-max frames");
     number("--t-max", engine.t_max, "Frames");
+    number("--resampled-worth", engine.resampled_worth,
+           "Of a history read between its texels, 0..1; 1: as if it were not blurred");
     number("--footprint-samples", engine.filter_samples, "Of a reprojected footprint, 0..64");
     number("--post-window", engine.filter_window, "Pixels that the post-processor looks around");
     number("--post-tries", engine.filter_tries, "Pixels that it tries");

@@ -29,6 +29,8 @@ void check(const WeierOptions& o) {
     require(o.k_min > 0.0f && o.k_max >= o.k_min && o.k_max <= 1.0f,
             "0 < k_min <= k_max <= 1 was expected");
     require(o.t_max >= 2 && o.t_max <= 1u << 19, "t_max must be 2 to 524288 frames");
+    require(o.resampled_worth >= 0.0f && o.resampled_worth <= 1.0f,
+            "what a resampled history is worth must be 0 to 1");
     require(o.filter_samples <= 64, "at most 64 footprint samples are possible");
     require(o.filter_window >= 1 && o.filter_window <= 64, "the filter's window is 1 to 64 pixels");
     require(o.filter_tries >= 1 && o.filter_tries <= 64, "the filter's tries are 1 to 64");
@@ -98,6 +100,7 @@ shared::WeierParams make_params(const WeierOptions& o, std::uint32_t width, std:
     p.log2_k_min = std::log2(o.k_min);
     p.log2_k_slope = (std::log2(o.k_max) - p.log2_k_min) / static_cast<float>(o.t_max - 1);
     p.k_max = o.k_max;
+    p.resampled_worth = o.resampled_worth;
     p.filter_window = o.filter_window;
     p.filter_tries = o.filter_tries;
     return p;

@@ -31,6 +31,8 @@ struct WeierOptions {
     // Frames: 2..2^19.
     float merge_threshold = 0.05f, k_min = 0.1f, k_max = 0.8f;
     std::uint32_t t_max = 40;
+    // What a history is worth after it was read between its texels, as part of what it was: 0..1.
+    float resampled_worth = 0.5f;
     std::uint32_t filter_samples = 4; // of a footprint (section 3.2), 0..64; 0: bilinear
     bool post = true;                 // section 3.5, for area lights and ambient occlusion
     std::uint32_t filter_window = 16, filter_tries = 8; // pixels 1..64; n 1..64

@@ -130,6 +130,16 @@ typedef struct Faults {
     int4 rho;
 } Faults;
 
+/* What lies between texels is blurred by being read, and worth the less (rho). Less than 2^-20 is
+ * nothing, so that no device meets a denormal. */
+MACULA_ALWAYS_INLINE float4 worth_when_read(const Packet* p, const Sources* sources, uint row,
+                                            float4 rho) {
+    const int4 between =
+        (vload4(row, sources->lanes.to_x) != 0.0f) | (vload4(row, sources->lanes.to_y) != 0.0f);
+    const float4 less = rho * p->weier->resampled_worth;
+    return between ? (less < 0x1p-20f ? (float4)(0.0f) : less) : rho;
+}
+
 /* Histories are kept row by row; samples and gaps come afterwards. */
 MACULA_ALWAYS_INLINE void keep_row(const Packet* p, const Past* past, const Sources* sources,
                                    uint row, const Out* out, Faults* faults) {
@@ -138,11 +148,12 @@ MACULA_ALWAYS_INLINE void keep_row(const Packet* p, const Past* past, const Sour
     const float16 between = row_of_colours(past->colour, sources, width, row);
     const float16 colour = opaque ? (float16)(1.0f) : between;
     const int* nearest = sources->lanes.nearest + 4u * row;
-    const uint8 info = (uint8)(past->info[nearest[0]], past->info[nearest[1]],
-                               past->info[nearest[2]], past->info[nearest[3]]);
+    uint8 info = (uint8)(past->info[nearest[0]], past->info[nearest[1]], past->info[nearest[2]],
+                         past->info[nearest[3]]);
     const float4 rho = as_float4(info.even);
     faults->colour |= !(fabs(colour) < 1e30f);
     faults->rho |= !((rho >= 0.0f) & (rho < 1e6f));
+    info.even = as_uint4(worth_when_read(p, sources, row, rho));
     const uint pixel = (p->y0 + row) * width + p->x0;
     const uint lanes = p->inside >> 4u * row & 15u;
     if (lanes == 15u) {

@@ -40,7 +40,7 @@ typedef struct WeierParams {
     uint filter_window;                    /* pixels: how far section 3.5 looks */
     uint filter_tries;                     /* n of section 3.5 */
     uint first_frame_full;                 /* 1: without history every pixel is sampled */
-    uint pad[1];
+    float resampled_worth;                 /* part of rho that reading between texels leaves */
 } WeierParams;
 MACULA_ASSERT_SIZE(WeierParams, 96);
 

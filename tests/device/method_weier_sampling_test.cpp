@@ -63,7 +63,7 @@ double eccentricity(const shared::FrameParams& p, std::uint32_t x, std::uint32_t
 }
 
 TEST(Dk2, TheSupportImageHasThePapersSize) {
-    const shared::WeierParams p = stage::make_params({}, 1182, 1464);
+    const shared::WeierParams p = stage::make_params(stage::WeierOptions{}, 1182, 1464);
     EXPECT_EQ(p.support_width, 256u);
     EXPECT_EQ(p.support_height, 318u);
 }
@@ -157,7 +157,7 @@ TEST(Options, OutOfRangeAreNamed) {
     EXPECT_THAT(refused([](O& o) { o.t_max = 1; }), named("t_max"));
     EXPECT_THAT(refused([](O& o) { o.support_width = 5000; }), named("support"));
     EXPECT_THAT(refused([](O& o) { o.filter_window = 0; }), named("window"));
-    EXPECT_THROW(stage::make_params({}, 1, 1), std::invalid_argument);
+    EXPECT_THROW(stage::make_params(stage::WeierOptions{}, 1, 1), std::invalid_argument);
 }
 
 // Sizes that no tile, no cell and no packet divides.
