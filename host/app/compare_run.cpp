@@ -31,6 +31,11 @@ Pair read_pair(const fs::path& reference, const fs::path& test, bool hdr) {
         throw std::runtime_error(fmt::format("'{}' is {}, '{}' is {}: one kind was expected",
                                              reference.string(), describe(pair.reference.kind),
                                              test.string(), describe(pair.test.kind)));
+    if (pair.reference.kind == ImageKind::png && pair.reference.bits != pair.test.bits)
+        throw std::runtime_error(fmt::format("'{}' has {} bits a channel, '{}' {}: one depth was "
+                                             "expected",
+                                             reference.string(), pair.reference.bits, test.string(),
+                                             pair.test.bits));
     if (hdr && pair.reference.kind == ImageKind::png)
         throw std::runtime_error(fmt::format("'{}' is {}: --hdr needs EXR files",
                                              reference.string(), describe(pair.reference.kind)));

@@ -166,11 +166,11 @@ ReadPicture read_picture(const fs::path& path) {
     Input input(path);
     ReadPicture result;
     result.kind = input.kind();
+    result.bits = static_cast<unsigned>(8 * input.spec().format.size());
     result.picture = {input.width(), input.height(), input.read({"R", "G", "B"})};
     if (input.kind() == ImageKind::png) {
         check_opaque(path, input);
-        decode_srgb(result.picture.rgb,
-                    input.spec().format == OIIO::TypeDesc::UINT16 ? 65535 : 255);
+        decode_srgb(result.picture.rgb, (1u << result.bits) - 1);
     } else if (input.has("Motion.X") && input.has("Motion.Y")) {
         result.motion = motion_of(input);
     }

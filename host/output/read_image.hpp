@@ -15,6 +15,7 @@ enum class ImageKind { png, exr };
 struct ReadPicture {
     metric::Picture picture; // linear, see docs/metrics.md
     ImageKind kind = ImageKind::png;
+    unsigned bits = 8; // a channel, in the file
     /// The channels Motion.X and Motion.Y of an EXR file that has them.
     std::optional<metric::MotionField> motion;
 };

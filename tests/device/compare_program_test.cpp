@@ -8,6 +8,7 @@
 
 #include "tests/support/picture_files.hpp"
 #include "tests/support/pictures.hpp"
+#include "tests/support/png_bytes.hpp"
 
 namespace macula {
 namespace {
@@ -189,6 +190,11 @@ TEST_F(CompareProgram, NamesTheFileThatDoesNotSuit) {
     EXPECT_THAT(refusal("a.png a.exr"), HasSubstr("one kind was expected"));
     EXPECT_THAT(refusal("a.png a.png --hdr"), HasSubstr("--hdr needs EXR"));
     EXPECT_THAT(refusal("a.exr nan.exr"), HasSubstr("reading 'nan.exr': pixel (1, 0)"));
+    write_bytes("deep.png", test::PngBytes::make(1, 1, 16, 2, {std::string(6, '\x40')}));
+    write_bytes("flat.png", test::PngBytes::make(1, 1, 8, 2, {std::string(3, '\x40')}));
+    EXPECT_THAT(refusal("deep.png flat.png"),
+                AllOf(HasSubstr("'deep.png' has 16 bits"), HasSubstr("'flat.png' 8")));
+    EXPECT_EQ(document("deep.png deep.png")["flip_mean"], 0.0);
     truncate("a.png", 0.5);
     EXPECT_THAT(refusal("b.png a.png"), HasSubstr("reading 'a.png'"));
 }
