@@ -69,8 +69,12 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     graph.for_each_sample(std::move(sampling));
 
     // Block 3: cache update and merge.
-    graph.add(stage::extract_support(foveated))
-        .add(stage::merge_cache(foveated, light.image, light.bytes))
+    // Ambient occlusion does not depend on the view: what lags there is noise.
+    const bool catch_up = options.weier.catch_up && !occlusion;
+    graph.add(stage::extract_support(foveated));
+    if (catch_up)
+        graph.add(stage::measure_lag(foveated));
+    graph.add(stage::merge_cache(foveated, catch_up, light.image, light.bytes))
         .add(stage::show_intermediates(foveated));
     if (options.weier.overlay)
         graph.add(stage::draw_overlay(foveated));

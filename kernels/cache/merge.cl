@@ -262,8 +262,40 @@ MACULA_ALWAYS_INLINE uint keep_histories(const Packet* p, const Mesh* mesh, cons
     return kept;
 }
 
+/* Adds what the history lags behind to the colours of the lanes `kept`. */
+static inline void catch_up(const Packet* p, global const float4* correction, uint kept,
+                            const Out* out) {
+    const uint across = p->weier->support_width, down = p->weier->support_height;
+    const float sx = place_in_support(p->x0, p->frame->width, across) - 0.5f;
+    const float sy = place_in_support(p->y0, p->frame->height, down) - 0.5f;
+    const float step_x = place_in_support(1u, p->frame->width, across) - 0.5f;
+    const float step_y = place_in_support(1u, p->frame->height, down) - 0.5f;
+    const int i = (int)rint(floor(sx)), j = (int)rint(floor(sy));
+    const int last_i = (int)rint(floor(fma(3.0f, step_x, sx))) + 1;
+    const int last_j = (int)rint(floor(fma(3.0f, step_y, sy))) + 1;
+    uint4 any = (uint4)(0u);
+    for (int row = j; row <= last_j; ++row)
+        for (int column = i; column <= last_i; ++column)
+            any |= as_uint4(correction[texel_index(column, row, across, down)]);
+    if ((any.x | any.y | any.z) == 0u)
+        return;
+    for (uint lanes = kept; lanes != 0u; lanes &= lanes - 1u) {
+        const uint lane = first_lane(lanes), pixel = pixel_of_lane(p, lane);
+        const float x = fma((float)(lane & 3u), step_x, sx),
+                    y = fma((float)(lane >> 2), step_y, sy);
+        Footing f;
+        f.x = (int)rint(floor(x));
+        f.y = (int)rint(floor(y));
+        f.to_x = x - (float)f.x;
+        f.to_y = y - (float)f.y;
+        const float4 sum = out->colour[pixel] + bilinear4(correction, across, down, &f);
+        out->colour[pixel] = (float4)(sum.xyz > 0.0f ? sum.xyz : (float3)(0.0f), 1.0f);
+    }
+}
+
 /* One work-item MACULA_PACKETS packets of sixteen pixels, side by side: what they read lies in a
- * few rows. `reprojected_colour` may be null, and the light buffers where the method has none. */
+ * few rows. `reprojected_colour` and `correction` may be null, and the light buffers where the
+ * method has none. */
 kernel void
 merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict mesh_columns, global const float* restrict mesh_rows,
@@ -272,7 +304,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
             global const uint* restrict masks, global const uint* restrict offsets,
             global const float4* restrict past_colour, global const uint2* restrict past_info,
             global const LightValue* restrict past_light,
-            global const float4* restrict support_image,
+            global const float4* restrict support_image, global const float4* restrict correction,
             global const float4* restrict sampled_colour, global const float* restrict depth,
             global const LightValue* restrict sampled_light, global float4* restrict colour,
             global uint2* restrict info, global LightValue* restrict light,
@@ -315,6 +347,8 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
                 reprojected_colour[pixel] =
                     (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
             }
+        if (correction && kept != 0u)
+            catch_up(&p, correction, kept, &out);
         collect_samples(&p, kept, inverse_depth, &waiting);
         for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
             fill(&p, support_image, first_lane(lanes), &out);

@@ -1,0 +1,63 @@
+/* How far the history lags behind what the view now shows: highlights and mirror images move over
+ * surfaces, which reprojection cannot know. The support samples tell, each frame and everywhere. */
+#include "lib/camera.h"
+#include "lib/reprojection.h"
+
+/* lag[i]: the fresh support sample i minus its reprojected history; 0 where there is none, and
+ * where the view stands still upon it. One work-item a support sample. */
+kernel void
+measure_lag(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
+            global const float* restrict columns, global const float* restrict rows,
+            global const float* restrict mesh_columns, global const float* restrict mesh_rows,
+            global const float4* restrict vertices, global const uint* restrict keys,
+            global const uint* restrict history_kept, global const float4* restrict past_colour,
+            global const float4* restrict support_image,
+            global const float4* restrict support_geometry, global float4* restrict lag) {
+    const uint index = (uint)get_global_id(0);
+    const uint across = weier->support_width, row = index / across;
+    if (row >= weier->support_height)
+        return;
+    const float x = columns[index % across], y = rows[row];
+    const uint key = keys[(uint)y * weier->pitch + (uint)x];
+    lag[index] = (float4)(0.0f);
+    if (*history_kept == 0u || (key & 1u) != 0u)
+        return;
+    const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
+    const History h = find_history(&mesh, weier, key, x, y);
+    const float apart = fabs(fma(support_geometry[index].w, h.inverse_depth, -1.0f));
+    const Footing f = footing_at(
+        clamp(h.at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height)));
+    if (!h.found || apart > weier->merge_threshold || (f.to_x == 0.0f && f.to_y == 0.0f))
+        return;
+    const float4 past = bilinear4(past_colour, frame->width, frame->height, &f);
+    const float4 difference = support_image[index] - past;
+    if (is_finite3(difference.xyz))
+        lag[index] = (float4)(difference.xyz, 0.0f);
+}
+
+/* Less than this of either sign is none, and far from denormal. */
+#define LEAST_LAG 0x1p-20f
+
+/* correction[i]: the mean lag of sample i and its four neighbours, in the colours in which all of
+ * them agree on its sign: what only some of them show is detail that the history lost, or noise.
+ * One work-item a support sample. */
+kernel void agree_on_lag(global const WeierParams* restrict weier,
+                         global const float4* restrict lag, global float4* restrict correction) {
+    const uint index = (uint)get_global_id(0);
+    const uint across = weier->support_width, down = weier->support_height;
+    if (index >= across * down)
+        return;
+    const int x = (int)(index % across), y = (int)(index / across);
+    const float4 here = lag[index];
+    const float4 left = lag[texel_index(x - 1, y, across, down)];
+    const float4 right = lag[texel_index(x + 1, y, across, down)];
+    const float4 above = lag[texel_index(x, y - 1, across, down)];
+    const float4 below = lag[texel_index(x, y + 1, across, down)];
+    const float4 least = (float4)(LEAST_LAG);
+    const int4 more =
+        (here > least) & (left > least) & (right > least) & (above > least) & (below > least);
+    const int4 less =
+        (here < -least) & (left < -least) & (right < -least) & (above < -least) & (below < -least);
+    const float4 mean = (here + ((left + right) + (above + below))) * 0.2f;
+    correction[index] = more | less ? mean : (float4)(0.0f);
+}
