@@ -38,9 +38,9 @@ measure_lag(global const FrameParams* restrict frame, global const WeierParams* 
 /* Less than this of either sign is none, and far from denormal. */
 #define LEAST_LAG 0x1p-20f
 
-/* correction[i]: the mean lag of sample i and its four neighbours, in the colours in which all of
- * them agree on its sign: what only some of them show is detail that the history lost, or noise.
- * One work-item a support sample. */
+/* correction[i]: the mean lag of sample i and its four neighbours, where all of them agree on its
+ * sign, in each colour: what only some of them show is detail that the history lost, or noise, and
+ * what only some colours show would tint it. One work-item a support sample. */
 kernel void agree_on_lag(global const WeierParams* restrict weier,
                          global const float4* restrict lag, global float4* restrict correction) {
     const uint index = (uint)get_global_id(0);
@@ -59,5 +59,7 @@ kernel void agree_on_lag(global const WeierParams* restrict weier,
     const int4 less =
         (here < -least) & (left < -least) & (right < -least) & (above < -least) & (below < -least);
     const float4 mean = (here + ((left + right) + (above + below))) * 0.2f;
-    correction[index] = more | less ? mean : (float4)(0.0f);
+    const int4 agreed = more | less;
+    const bool all = (agreed.x & agreed.y & agreed.z) != 0;
+    correction[index] = all ? (float4)(mean.xyz, 0.0f) : (float4)(0.0f);
 }
