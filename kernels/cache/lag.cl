@@ -37,6 +37,8 @@ measure_lag(global const FrameParams* restrict frame, global const WeierParams* 
 
 /* Less than this of either sign is none, and far from denormal. */
 #define LEAST_LAG 0x1p-20f
+/* What nobody would see, and would cost each pixel time. */
+#define LEAST_CORRECTION 0x1p-10f
 
 /* correction[i]: the mean lag of sample i and its four neighbours, where all of them agree on its
  * sign, in each colour: what only some of them show is detail that the history lost, or noise, and
@@ -60,6 +62,7 @@ kernel void agree_on_lag(global const WeierParams* restrict weier,
         (here < -least) & (left < -least) & (right < -least) & (above < -least) & (below < -least);
     const float4 mean = (here + ((left + right) + (above + below))) * 0.2f;
     const int4 agreed = more | less;
-    const bool all = (agreed.x & agreed.y & agreed.z) != 0;
+    const int4 seen = fabs(mean) > LEAST_CORRECTION;
+    const bool all = (agreed.x & agreed.y & agreed.z) != 0 && (seen.x | seen.y | seen.z) != 0;
     correction[index] = all ? (float4)(mean.xyz, 0.0f) : (float4)(0.0f);
 }

@@ -142,14 +142,6 @@ static inline void add_ray(const List* list, global const FrameParams* frame, ui
     list->spreads[slot] = spread;
 }
 
-/* Fills the list's last ray block with inactive rays. */
-static inline void pad_list(const List* list, global const FrameParams* frame, uint total) {
-    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot) {
-        add_ray(list, frame, slot, MACULA_NO_PIXEL, 0.0f, 0.0f, 1.0f);
-        list->rays[slot / MACULA_RAY_BLOCK].t_max[slot % MACULA_RAY_BLOCK] = -1.0f;
-    }
-}
-
 /* One work-item a packet. places: the pixel's index for the disk, beyond them the texel's. A grid
  * of samples is one in the buffer, hence warped in the image (section 4.1.3). */
 kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
@@ -166,7 +158,9 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
     const List list = {rays, places, spreads};
     if (packet == 0u) {
         const uint total = min(*sum, params->capacity);
-        pad_list(&list, frame, total);
+        pad_list(rays, places, total);
+        for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot)
+            spreads[slot] = 1.0f;
         *ray_count = (total + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK * MACULA_RAY_BLOCK;
         ray_totals[ray_class] += total;
     }

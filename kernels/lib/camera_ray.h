@@ -45,4 +45,18 @@ static inline void generate_camera_ray(global const FrameParams* frame, uint wid
     }
 }
 
+/* Fills the list's last ray block with inactive rays. */
+static inline void pad_list(global RayBlock* rays, global uint* pixels, uint total) {
+    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot) {
+        global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
+        const uint lane = slot % MACULA_RAY_BLOCK;
+        block->origin_x[lane] = block->origin_y[lane] = block->origin_z[lane] = 0.0f;
+        block->t_min[lane] = 0.0f;
+        block->direction_x[lane] = block->direction_y[lane] = 0.0f;
+        block->direction_z[lane] = 1.0f;
+        block->t_max[lane] = -1.0f;
+        pixels[slot] = MACULA_NO_PIXEL;
+    }
+}
+
 #endif

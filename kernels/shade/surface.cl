@@ -190,9 +190,8 @@ kernel void resolve_surface(
     global float* restrict depth, global float4* restrict position,
     global float4* restrict geometric_normal, global float4* restrict shading_normal,
     global float4* restrict albedo, global float4* restrict specular,
-    global float4* restrict emission,
-    global uint* restrict triangle, global uint* restrict material,
-    global float2* restrict motion) {
+    global float4* restrict emission, global uint* restrict triangle,
+    global uint* restrict material, global float2* restrict motion) {
     const uint first = first_of_item();
     if (first >= *ray_count)
         return;
