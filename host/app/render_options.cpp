@@ -109,6 +109,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.ambient_occlusion_radius = options.ambient_occlusion_radius;
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
+    engine.depth = options.depth;
     engine.variant = options.variant;
     engine.lanes = options.lanes;
     engine.weier = engine_options(options.weier);
@@ -138,6 +139,8 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--ao-samples", ambient_occlusion_samples, "Rays of ambient occlusion")
         ->capture_default_str();
     command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
+        ->capture_default_str();
+    command.add_option("--depth", depth, "Levels of reflected and refracted rays")
         ->capture_default_str();
     command.add_option("--seed", seed, "Of all random numbers")->capture_default_str();
     command.add_option("--scene-seed", scene_seed, "Of a built-in scene")->capture_default_str();

@@ -22,7 +22,7 @@ struct RenderOptions : ViewOptions {
                                variant;
     std::uint32_t lanes = 0;
     std::uint32_t samples_per_pixel = 1, light_samples = 8, ambient_occlusion_samples = 16,
-                  seed = 0;
+                  seed = 0, depth = 1;
     std::uint32_t scene_size = 0;
     std::uint64_t scene_seed = 1;
     float ambient_occlusion_radius = 0.0f, exposure = 1.0f;

@@ -10,6 +10,7 @@
 #include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/surface.h"
 #include "shared/weier.h"
 
 #define MACULA_STRUCT_LIST(STRUCT, MEMBER)                                                         \
@@ -80,6 +81,10 @@
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
     MEMBER(FrameParams, ambient)                                                                   \
+    STRUCT(SurfaceOptics)                                                                          \
+    MEMBER(SurfaceOptics, index_of_refraction)                                                     \
+    MEMBER(SurfaceOptics, transmission)                                                            \
+    MEMBER(SurfaceOptics, diffuse_part)                                                            \
     STRUCT(WeierParams)                                                                            \
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \
