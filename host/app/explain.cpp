@@ -41,7 +41,8 @@ app::Run add(CLI::App& command) {
     options->method.clear();
     app::add_device_option(command, options->device);
     command.add_option("method", options->method, "A method; without it, the methods are listed");
-    command.add_option("--lights", options->lights, "point, area or ao")->capture_default_str();
+    command.add_option("--lights", options->lights, "point, area, soft or ao")
+        ->capture_default_str();
     command.add_option("--aov", options->aovs, "Images besides colour, see render --list-aovs")
         ->delimiter(',');
     return [options] { return run(*options); };

@@ -21,7 +21,8 @@ frame::Graph make_logpolar(const stage::Kit& kit, const Options& options) {
         stage::log_polar_rays(log_polar),
         stage::trace_primary_rays(kit, kernel::RayClass::sparse),
         stage::resolve_surface(kit, "spread of slot"),
-        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
+        occlusion ? stage::ambient_occlusion(kit)
+                  : stage::direct_light(kit, {kit.width, log_polar.buffer->params().pitch}),
         stage::shade(kit, !occlusion, occlusion),
         stage::average_listed(kit, "surface colour", "sampled colour", 16),
     });

@@ -17,7 +17,7 @@ frame::Graph make_lowres(const stage::Kit& kit, const Options& options) {
         stage::grid_rays(kit, size),
         stage::trace_primary_rays(kit),
         stage::resolve_surface(kit),
-        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
+        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit, {size.width}),
         stage::shade(kit, !occlusion, occlusion),
         stage::average_samples(kit, "surface colour", "sampled colour"),
     });

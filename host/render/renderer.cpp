@@ -115,7 +115,8 @@ struct Renderer::State {
     State(std::shared_ptr<DeviceScene> shared_scene, const scene::Scene& scene, const Options& o)
         : on_device(std::move(shared_scene)), device(on_device->device), options(o),
           views(views_of(scene)), ray_totals(zeroed_counters(device)),
-          lights(frame::make_lights(scene, o.lights, o.light_samples)),
+          lights(frame::make_lights(
+              scene, o.lights, o.light_samples.value_or(frame::default_light_samples(o.lights)))),
           settings(settings_of(scene, o, lights.size())),
           tracer(device, on_device->library, on_device->geometry,
                  stage::choose_variants(device, o.variant)),

@@ -34,7 +34,8 @@ struct Options {
     std::uint32_t width = 640, height = 480; // pixels, each 1..16384
     std::string method = "full";             // method::methods()
     frame::LightMode lights = frame::LightMode::point;
-    std::uint32_t light_samples = 8;              // rays for each area light, 1..4096
+    // Rays for each area light, 1..4096; without one frame::default_light_samples().
+    std::optional<std::uint32_t> light_samples;
     std::uint32_t ambient_occlusion_samples = 16; // 1..4096
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
