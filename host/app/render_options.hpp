@@ -29,6 +29,7 @@ struct RenderOptions : ViewOptions {
     float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
     WeierOptions weier;
     stage::LogPolarOptions log_polar;
+    method::TemporalOptions temporal;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

@@ -13,8 +13,9 @@ namespace macula::method {
 frame::Graph make_logpolar(const stage::Kit& kit, const Options& options) {
     const bool occlusion = options.lights == frame::LightMode::ambient_occlusion;
     const stage::LogPolarKit log_polar{
-        kit, std::make_shared<stage::LogPolarBuffer>(
-                 stage::make_params(options.log_polar, kit.width, kit.height))};
+        kit,
+        std::make_shared<stage::LogPolarBuffer>(stage::make_params(
+            options.log_polar, kit.width, kit.height, kit.picture_width(), kit.picture_height()))};
     frame::Graph graph("logpolar", "samples uniform in kernel log-polar space (Mrad 2022)");
     graph.add(stage::place_fovea(log_polar)).add(stage::choose_samples(log_polar));
     graph.for_each_sample({

@@ -80,6 +80,7 @@
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
     MEMBER(FrameParams, ambient)                                                                   \
+    MEMBER(FrameParams, jitter)                                                                    \
     STRUCT(WeierParams)                                                                            \
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \

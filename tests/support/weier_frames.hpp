@@ -26,6 +26,7 @@ struct WeierSetup {
     std::string method = "weier";
     float lowres_scale = 0.46f;
     stage::LogPolarOptions log_polar;
+    method::TemporalOptions temporal;
 };
 
 class WeierFrames {
@@ -39,7 +40,8 @@ class WeierFrames {
           graph_(method::find_method(setup.method)
                      .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
                             setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_},
-                           {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar})) {
+                           {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
+                            setup.temporal})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
         graph_.compile(device, outputs);
