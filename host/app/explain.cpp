@@ -43,7 +43,8 @@ app::Run add(CLI::App& command) {
     options->depth = 0;
     app::add_device_option(command, options->device);
     command.add_option("method", options->method, "A method; without it, the methods are listed");
-    command.add_option("--lights", options->lights, "point, area or ao")->capture_default_str();
+    command.add_option("--lights", options->lights, "point, area, soft or ao")
+        ->capture_default_str();
     command
         .add_option("--depth", options->depth,
                     "Levels of reflected and refracted rays, as of a scene that has any")

@@ -10,6 +10,11 @@ namespace macula::frame {
 Graph::Graph(std::string name, std::string purpose)
     : name_(std::move(name)), purpose_(std::move(purpose)) {}
 
+void Graph::rename(std::string name, std::string purpose) {
+    name_ = std::move(name);
+    purpose_ = std::move(purpose);
+}
+
 Graph& Graph::add(Stage stage) {
     append(std::move(stage), 0);
     return *this;

@@ -68,6 +68,8 @@ class Graph {
     // Stages that run one after another for each pixel sample.
     Graph& for_each_sample(std::vector<Stage> stages);
 
+    // For methods that are another one with further stages.
+    void rename(std::string name, std::string purpose);
     const std::string& name() const { return name_; }
     const std::string& purpose() const { return purpose_; }
     // Names of all resources that some stage writes.

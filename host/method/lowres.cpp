@@ -17,10 +17,10 @@ frame::Graph make_lowres(const stage::Kit& kit, const Options& options) {
         stage::grid_rays(kit, size),
         stage::trace_primary_rays(kit),
         stage::resolve_surface(kit),
-        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
+        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit, {size.width}),
         stage::shade(kit, !occlusion, occlusion),
     };
-    const std::string colour = add_secondary_rays(stages, kit, options);
+    const std::string colour = add_secondary_rays(stages, kit, options, {}, {size.width});
     stages.push_back(stage::average_samples(kit, colour, "sampled colour"));
     graph.for_each_sample(std::move(stages));
     graph.add(stage::enlarge(kit, size));

@@ -22,6 +22,7 @@
 #include "host/frame/lights.hpp"
 #include "host/frame/timings.hpp"
 #include "host/kernel/variants.hpp"
+#include "host/method/method.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/stage/foveated.hpp"
 #include "host/stage/lens.hpp"
@@ -34,7 +35,8 @@ struct Options {
     std::uint32_t width = 640, height = 480; // pixels, each 1..16384
     std::string method = "full";             // method::methods()
     frame::LightMode lights = frame::LightMode::point;
-    std::uint32_t light_samples = 8;              // rays for each area light, 1..4096
+    // Rays for each area light, 1..4096; without one frame::default_light_samples().
+    std::optional<std::uint32_t> light_samples;
     std::uint32_t ambient_occlusion_samples = 16; // 1..4096
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
@@ -51,6 +53,7 @@ struct Options {
     stage::WeierOptions weier;  // of method "weier"
     float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar; // of method "logpolar"
+    method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
     frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };
@@ -106,8 +109,8 @@ class Renderer {
     void start(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze = {});
     FrameReport finish();
 
-    // An image of the last frame: "colour" or one of Options::images. Throws std::invalid_argument
-    // for another name.
+    // An image of the last frame: "colour" or one of Options::images. Those have the size that is
+    // rendered, the colour that of the picture. Throws std::invalid_argument for another name.
     Image map(const std::string& name) const;
     // What is to be shown: "colour", or "lens image" where Options::lens is given.
     Image picture() const;
@@ -130,6 +133,8 @@ class Renderer {
     std::string explain() const;
 
   private:
+    Image image(const std::string& resource, const ImageFormat& format, method::Size size) const;
+
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -24,7 +24,7 @@ struct Kit {
     frame::DeviceGeometry& geometry;
     frame::DeviceSurfaces& surfaces;
     Tracer& tracer;
-    std::uint32_t width, height; // pixels
+    std::uint32_t width, height; // pixels that are rendered
     std::vector<shared::Light> lights;
     std::uint32_t ambient_occlusion_samples;
     bool highlights; // some material reflects specularly
@@ -32,6 +32,8 @@ struct Kit {
     compute::Buffer ray_totals;
     // Ray slots that a work-item of the shading kernels works on: 1 or 16 (lib/lanes.h).
     std::uint32_t lanes = 1;
+    // Pixels of the picture where a method enlarges what it renders; 0: those that are rendered.
+    std::uint32_t target_width = 0, target_height = 0;
     // Levels of reflected and refracted rays; 0 also where no material has any.
     std::uint32_t depth = 0;
     // Of the rays that a stage is made for: 0, the primary ones.
@@ -45,6 +47,8 @@ struct Kit {
     // that for secondary rays.
     std::uint32_t slots() const;
     std::uint64_t pixels() const { return std::uint64_t{width} * height; }
+    std::uint32_t picture_width() const { return target_width != 0 ? target_width : width; }
+    std::uint32_t picture_height() const { return target_height != 0 ? target_height : height; }
     // A shading kernel for that many lanes; its launch over `count` slots, a multiple of kGroup.
     compute::Kernel lane_kernel(const char* program, const char* entry) const;
     compute::Range lane_items(std::uint32_t count) const { return {count / lanes}; }

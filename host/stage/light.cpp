@@ -3,21 +3,29 @@
 #include <algorithm>
 #include <memory>
 
+#include "host/frame/blue_noise.hpp"
 #include "host/kernel/prefix_sum.hpp"
 #include "host/stage/queue.hpp"
 
 namespace macula::stage {
 namespace {
 
+bool takes_blue_noise(const shared::Light& light) {
+    return light.columns == 0;
+}
+
 class DirectLight {
   public:
-    explicit DirectLight(const Kit& kit)
-        : kit_(kit), compaction_(kit.library, kit.device, kit.slots()) {
+    DirectLight(const Kit& kit, PlaceRows rows)
+        : kit_(kit), rows_{rows.pixels > 0 ? rows.pixels : kit.width, rows.texels},
+          compaction_(kit.library, kit.device, kit.slots()) {
         constexpr const char* program = "shade/light";
         flag_ = kit.lane_kernel(program, "flag_lit_surfaces");
         generate_ = kit.lane_kernel(program, "generate_shadow_rays");
         add_ = kit.lane_kernel(program, "add_light");
         lights_ = kit.device.upload(std::span(kit.lights), "lights");
+        if (std::any_of(kit.lights.begin(), kit.lights.end(), takes_blue_noise))
+            noise_ = kit.device.upload(std::span(frame::blue_noise()), "blue noise");
     }
 
     void operator()(frame::Run& run) {
@@ -50,9 +58,9 @@ class DirectLight {
         const std::uint32_t entries = batch_entries(kit_, samples);
         for_each_batch(kit_, entries, [&](std::uint32_t first) {
             generate_
-                .set(run.params_buffer(), run.sample(), lights_, light, run.scratch("queue"),
-                     run.scratch("queue count"), first, run[kit_.named("pixel of slot")],
-                     run[kit_.named("surface position")],
+                .set(run.params_buffer(), run.sample(), lights_, light, rows_.pixels, rows_.texels,
+                     noise_, run.scratch("queue"), run.scratch("queue count"), first,
+                     run[kit_.named("pixel of slot")], run[kit_.named("surface position")],
                      run[kit_.named("surface geometric normal")], run.scratch("queued rays"),
                      run.scratch("queued ray count"), kit_.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::shadow))
@@ -61,9 +69,9 @@ class DirectLight {
             kit_.tracer.any(kernel::RayClass::shadow, run.scratch("queued rays"),
                             run.scratch("queued ray count"), entries * samples,
                             run.scratch("occluded"), kit_.named("trace shadow rays"));
-            add_.set(run.params_buffer(), run.sample(), lights_, light, run.scratch("queue"),
-                     run.scratch("queue count"), first, run[kit_.named("pixel of slot")],
-                     run[kit_.named("surface position")],
+            add_.set(run.params_buffer(), run.sample(), lights_, light, rows_.pixels, rows_.texels,
+                     noise_, run.scratch("queue"), run.scratch("queue count"), first,
+                     run[kit_.named("pixel of slot")], run[kit_.named("surface position")],
                      run[kit_.named("surface geometric normal")],
                      run[kit_.named("surface shading normal")], run[kit_.named("surface specular")],
                      run[kit_.named("origin")], run.scratch("occluded"),
@@ -73,14 +81,15 @@ class DirectLight {
     }
 
     Kit kit_;
+    PlaceRows rows_;
     kernel::Compaction compaction_;
     compute::Kernel flag_, generate_, add_;
-    compute::Buffer lights_;
+    compute::Buffer lights_, noise_;
 };
 
 } // namespace
 
-frame::Stage direct_light(const Kit& kit) {
+frame::Stage direct_light(const Kit& kit, PlaceRows rows) {
     std::uint32_t samples = 1;
     for (const shared::Light& light : kit.lights)
         samples = std::max(samples, light.samples);
@@ -96,8 +105,8 @@ frame::Stage direct_light(const Kit& kit) {
     stage.writes = {of_level(kit, "surface irradiance", 16),
                     of_level(kit, "surface highlight", 16)};
     stage.scratch = queue_scratch(kit, samples);
-    stage.prepare = [kit] {
-        auto body = std::make_shared<DirectLight>(kit);
+    stage.prepare = [kit, rows] {
+        auto body = std::make_shared<DirectLight>(kit, rows);
         return [body](frame::Run& run) { (*body)(run); };
     };
     return stage;

@@ -28,8 +28,11 @@ void check(const LogPolarOptions& o) {
     require(o.fade >= 0.0f && o.fade <= 1.0f, "the disk's fade must be 0 to 1");
 }
 
-std::uint32_t texels(std::uint32_t pixels, float sigma) {
-    return std::max(static_cast<std::uint32_t>(std::lround(pixels / sigma)), 4u);
+// Not more than are rendered: the list has a slot for each pixel.
+std::uint32_t texels(std::uint32_t rendered, std::uint32_t picture, float sigma) {
+    const auto wanted =
+        static_cast<std::uint32_t>(std::lround((picture != 0 ? picture : rendered) / sigma));
+    return std::max(std::min(wanted, rendered), 4u);
 }
 
 frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
@@ -39,11 +42,12 @@ frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
 } // namespace
 
 shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width,
-                                   std::uint32_t height) {
+                                   std::uint32_t height, std::uint32_t picture_width,
+                                   std::uint32_t picture_height) {
     check(o);
     shared::LogPolarParams p{};
-    p.width = texels(width, o.sigma);
-    p.height = texels(height, o.sigma);
+    p.width = texels(width, picture_width, o.sigma);
+    p.height = texels(height, picture_height, o.sigma);
     p.alpha = o.alpha;
     p.inverse_alpha = 1.0f / o.alpha;
     p.disk = o.disk;

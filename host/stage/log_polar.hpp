@@ -13,7 +13,7 @@ namespace macula::stage {
 // Defaults are the thesis's (sections 4.2.1 and 4.2.3).
 struct LogPolarOptions {
     float alpha = 4.0f; // of the kernel function K(x) = x^alpha, 1..16
-    float sigma = 1.8f; // pixels of the image for a texel of the buffer along each axis, 1..16
+    float sigma = 1.8f; // pixels of the picture for a texel of the buffer along each axis, 1..16
     // Radius of the foveal disk: part of half of the image's diagonal, 0..10; the thesis takes the
     // distance to the furthest corner, so that its disk grows when the gaze leaves the centre.
     float disk = 0.15f;
@@ -21,9 +21,11 @@ struct LogPolarOptions {
     float fade = 0.15f;        // part of the radius in which it passes into the buffer, 0..1
 };
 
-// Throws std::invalid_argument that names the option out of range.
+// For width x height pixels to be rendered, of which a picture of another size may be made: 0: the
+// same. Throws std::invalid_argument that names the option out of range.
 shared::LogPolarParams make_params(const LogPolarOptions& options, std::uint32_t width,
-                                   std::uint32_t height);
+                                   std::uint32_t height, std::uint32_t picture_width = 0,
+                                   std::uint32_t picture_height = 0);
 
 // Parameters on the device, uploaded when the first stage is prepared.
 class LogPolarBuffer {

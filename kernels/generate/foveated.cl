@@ -122,7 +122,7 @@ static inline void write_ray(global const FrameParams* frame, global const Weier
     const uint key = random_key(y * width + x, frame->frame, frame->seed);
     const uint grid = weier->jitter != 0u ? 0u : frame->sample_grid;
     float dx, dy;
-    subpixel_offset(key, sample, grid, &dx, &dy);
+    sample_offset(frame, key, sample, grid, &dx, &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
     store_camera_ray(frame, rays, slot, direction, MACULA_BACKGROUND_DEPTH);

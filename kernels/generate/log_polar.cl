@@ -175,8 +175,8 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
         const uint place =
             disk ? row * across + column : pixels + row * params->pitch + column + 1u;
         float dx, dy, x, y, spread = 1.0f;
-        subpixel_offset(random_key(place, frame->frame, frame->seed), sample, frame->sample_grid,
-                        &dx, &dy);
+        sample_offset(frame, random_key(place, frame->frame, frame->seed), sample,
+                      frame->sample_grid, &dx, &dy);
         x = (float)column + dx;
         y = (float)row + dy;
         if (!disk) {

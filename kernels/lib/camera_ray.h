@@ -33,8 +33,8 @@ static inline void generate_camera_ray(global const FrameParams* frame, uint wid
     const bool inside = x < width && y < height;
     const uint pixel = y * width + x;
     float dx, dy;
-    subpixel_offset(random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid, &dx,
-                    &dy);
+    sample_offset(frame, random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid,
+                  &dx, &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
     store_camera_ray(frame, rays, slot, direction, inside ? MACULA_BACKGROUND_DEPTH : -1.0f);

@@ -81,6 +81,7 @@
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
     MEMBER(FrameParams, ambient)                                                                   \
+    MEMBER(FrameParams, jitter)                                                                    \
     STRUCT(SurfaceOptics)                                                                          \
     MEMBER(SurfaceOptics, index_of_refraction)                                                     \
     MEMBER(SurfaceOptics, transmission)                                                            \

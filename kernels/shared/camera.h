@@ -47,8 +47,12 @@ typedef struct FrameParams {
     uint pad_ambient;
     float background[3]; /* radiance of rays that miss, linear RGB */
     uint pad_background;
+    /* Where in its pixel the samples of this frame lie, from its middle, in pixels; 0 for methods
+     * that do not gather samples over frames. Motion does not know of it. */
+    float jitter[2];
+    uint pad_jitter[2];
 } FrameParams;
-MACULA_ASSERT_SIZE(FrameParams, 224);
+MACULA_ASSERT_SIZE(FrameParams, 240);
 
 MACULA_SHARED_END
 #endif
