@@ -221,7 +221,7 @@ kernel void resolve_surface(
     write_geometry(&out, &h, &s, of_hit);
     /* t along a primary ray is the depth, and the cone's width grows with the depth. */
     const Real spread = spread_of(spreads, first, frame);
-    const Real lod = surface_lod(&s, h.t * spread, h.direction);
+    const Real lod = surface_lod(&s, h.t * spread, h.direction) + frame->lod_bias;
     const TextureTables tables = {textures, levels, texels, decode};
     write_material(&out, &h, &s, &tables, materials, of_hit, frame->background, lod);
     if (motion) {
