@@ -111,6 +111,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
     engine.depth = options.depth;
+    engine.lod_bias = options.lod_bias;
     engine.variant = options.variant;
     engine.lanes = options.lanes;
     engine.weier = engine_options(options.weier);
@@ -143,6 +144,8 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
         ->capture_default_str();
     command.add_option("--depth", depth, "Levels of reflected and refracted rays")
+        ->capture_default_str();
+    command.add_option("--lod-bias", lod_bias, "Levels that every texture lookup goes up")
         ->capture_default_str();
     command.add_option("--seed", seed, "Of all random numbers")->capture_default_str();
     command.add_option("--scene-seed", scene_seed, "Of a built-in scene")->capture_default_str();

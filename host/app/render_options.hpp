@@ -26,7 +26,7 @@ struct RenderOptions : ViewOptions {
     std::optional<std::uint32_t> light_samples;
     std::uint32_t scene_size = 0;
     std::uint64_t scene_seed = 1;
-    float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
+    float ambient_occlusion_radius = 0.0f, exposure = 1.0f, lod_bias = 0.0f;
     WeierOptions weier;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;

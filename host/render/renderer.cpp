@@ -58,6 +58,7 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
     s.jitter_phases = method.jitter_phases(options.width, options.temporal);
     s.samples_per_pixel = options.samples_per_pixel;
     s.seed = options.seed;
+    s.lod_bias = options.lod_bias;
     s.light_count = static_cast<std::uint32_t>(lights);
     if (occlusion) {
         s.ambient_occlusion_samples = options.ambient_occlusion_samples;

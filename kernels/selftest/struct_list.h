@@ -80,6 +80,7 @@
     MEMBER(FrameParams, width)                                                                     \
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
+    MEMBER(FrameParams, lod_bias)                                                                  \
     MEMBER(FrameParams, ambient)                                                                   \
     MEMBER(FrameParams, jitter)                                                                    \
     STRUCT(SurfaceOptics)                                                                          \
@@ -98,6 +99,7 @@
     STRUCT(LogPolarParams)                                                                         \
     MEMBER(LogPolarParams, alpha)                                                                  \
     MEMBER(LogPolarParams, pitch)                                                                  \
+    MEMBER(LogPolarParams, thesis_lod)                                                             \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
     MEMBER(Fovea, first_column)

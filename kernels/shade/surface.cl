@@ -231,7 +231,7 @@ kernel void resolve_surface(
     surface_point(&a, &b, &c, &placement, h.u, h.v, h.direction, &s);
     write_geometry(&out, &h, &s, of_hit);
     const Real width = cone_width(&h, spreads, throughput, origin, frame);
-    const Real lod = surface_lod(&s, width, h.direction);
+    const Real lod = surface_lod(&s, width, h.direction) + frame->lod_bias;
     const TextureTables tables = {textures, levels, texels, decode};
     write_material(&out, &h, &s, &tables, materials, of_hit, frame->background, lod);
     if (motion) {
