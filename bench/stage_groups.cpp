@@ -25,6 +25,7 @@ constexpr std::array kEntries = {
     Entry{"add light", StageGroup::ray_tracing},
     Entry{"shade", StageGroup::ray_tracing},
     Entry{"bounce ", StageGroup::ray_tracing},
+    Entry{"find layers", StageGroup::ray_tracing},
     Entry{"collect layers", StageGroup::ray_tracing},
     Entry{"weigh layers", StageGroup::ray_tracing},
     Entry{"list layers", StageGroup::ray_tracing},

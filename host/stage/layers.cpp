@@ -11,10 +11,18 @@ namespace {
 constexpr const char* kProgram = "shade/layers";
 constexpr const char* kThrough = "light through layers";
 
+VariantTable variants_of(const Tracer& tracer) {
+    VariantTable table;
+    for (const kernel::RayClass ray_class : kernel::kRayClasses)
+        table[static_cast<std::size_t>(ray_class)] = tracer.choice(ray_class);
+    return table;
+}
+
 class CollectLayers {
   public:
     CollectLayers(const Kit& kit, std::string spreads)
         : kit_(kit), list_(kit.at_layers()), spreads_(std::move(spreads)),
+          tracer_(kit.device, kit.library, kit.blended->geometry, variants_of(kit.tracer)),
           compaction_(kit.library, kit.device, std::uint64_t{kit.layers} * kit.slots()),
           collect_(kernel("collect_layers")), weigh_(kernel("weigh_layers")),
           entries_(kernel("list_layers")) {}
@@ -26,6 +34,9 @@ class CollectLayers {
         compute::Buffer& ids = run.scratch("layer triangles found");
         compute::Buffer& histogram = run.scratch("layer histogram");
         histogram.fill(0);
+        // Most rays meet none, which packets find out sooner.
+        tracer_.any(kernel::RayClass::sparse, run[kit_.rays()], run["ray count"], kit_.slots(),
+                    run.scratch("rays that meet layers"), "find layers");
         frame::DeviceGeometry& geometry = kit_.blended->geometry;
         const frame::DeviceSurfaces& scene = kit_.blended->surfaces;
         const frame::LayoutBuffers& tree = geometry.layout(bvh::Layout::binary);
@@ -33,8 +44,9 @@ class CollectLayers {
             .set(run.params_buffer(), tree.nodes, tree.triangles, tree.instances,
                  geometry.upper_nodes(), scene.triangles, scene.vertices, scene.optics,
                  scene.textures, scene.levels, scene.texels, scene.decode, run[kit_.rays()],
-                 run["ray count"], run["hits"], spreads, kit_.layers, layers, ids,
-                 run.scratch("layer counts"), run.scratch("layer remainders"), histogram)
+                 run["ray count"], run["hits"], spreads, run.scratch("rays that meet layers"),
+                 kit_.layers, layers, ids, run.scratch("layer counts"),
+                 run.scratch("layer remainders"), histogram)
             .launch("collect layers", {kit_.slots()}, {kGroup});
         weigh_
             .set(run["ray count"], histogram, kit_.layers, list_.slots(),
@@ -60,21 +72,18 @@ class CollectLayers {
 
     Kit kit_, list_;
     std::string spreads_;
+    Tracer tracer_;
     kernel::Compaction compaction_;
     compute::Kernel collect_, weigh_, entries_;
 };
 
 std::vector<frame::Resource> scratch_of(const Kit& kit) {
     const std::uint64_t most = std::uint64_t{kit.layers} * kit.slots();
-    return {{"layer hits found", 16, most},
-            {"layer triangles found", 4, most},
-            {"layer flags", 4, most},
-            {"layer flag count", 4, 1},
-            {"layer queue", 4, most},
-            {"layer queue count", 4, 1},
-            {"layer histogram", 4, kit.layers},
-            per_slot(kit, "layer counts", 4),
-            per_slot(kit, "layer remainders", 4)};
+    return {{"layer hits found", 16, most},     {"layer triangles found", 4, most},
+            {"layer flags", 4, most},           {"layer flag count", 4, 1},
+            {"layer queue", 4, most},           {"layer queue count", 4, 1},
+            {"layer histogram", 4, kit.layers}, per_slot(kit, "rays that meet layers", 4),
+            per_slot(kit, "layer counts", 4),   per_slot(kit, "layer remainders", 4)};
 }
 
 } // namespace

@@ -145,7 +145,7 @@ MACULA_ALWAYS_INLINE void collect_instance(Layers* l, const TraceRay* world, con
 }
 
 /* counts[slot]: layers found up to the hit, at most `most`; what goes through those behind them is
- * `behind`. histogram[k]: rays with more than k layers, begins as zeros. One work-item a slot. */
+ * `behind`. meets[slot]: 0 where the ray meets none, whatever it hits. histogram[k]: rays with more than k layers, begins as zeros. One work-item a slot. */
 kernel void collect_layers(
     global const FrameParams* restrict frame, global const uchar* restrict nodes,
     global const uchar* restrict triangles, global const Instance* restrict instances,
@@ -155,17 +155,18 @@ kernel void collect_layers(
     global const ImageTexture* restrict textures, global const ImageLevel* restrict levels,
     global const uint* restrict texels, global const float* restrict decode,
     global const RayBlock* restrict rays, global const uint* restrict ray_count,
-    global const HitBlock* restrict found, global const float* restrict spreads, uint most,
-    global float4* restrict hits, global uint* restrict ids, global uint* restrict counts,
-    global float* restrict behind, global uint* restrict histogram) {
+    global const HitBlock* restrict found, global const float* restrict spreads,
+    global const uint* restrict meets, uint most, global float4* restrict hits,
+    global uint* restrict ids, global uint* restrict counts, global float* restrict behind,
+    global uint* restrict histogram) {
     const uint slot = (uint)get_global_id(0);
     if (slot >= *ray_count)
         return;
-    QueuedRay ray = load_ray(rays, slot);
     counts[slot] = 0u;
     behind[slot] = 1.0f;
-    if (!ray_is_active(ray.t_min, ray.t_max))
+    if (meets[slot] == 0u)
         return;
+    QueuedRay ray = load_ray(rays, slot);
     ray.t_max = found[slot / MACULA_RAY_BLOCK].t[slot % MACULA_RAY_BLOCK];
     Layers l;
     l.nodes = (global const BinaryNode*)nodes;
