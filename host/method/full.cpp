@@ -5,6 +5,7 @@
 #include "host/stage/primary.hpp"
 #include "host/stage/shade.hpp"
 #include "host/stage/surface.hpp"
+#include "host/stage/temporal.hpp"
 
 namespace macula::method {
 
@@ -21,6 +22,7 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options) {
     };
     for (frame::Stage& image : surface_images(kit, options))
         stages.push_back(std::move(image));
+    stages.push_back(stage::place_surfaces(kit));
     graph.for_each_sample(std::move(stages));
     return graph;
 }

@@ -7,6 +7,7 @@
 #include "host/stage/primary.hpp"
 #include "host/stage/shade.hpp"
 #include "host/stage/surface.hpp"
+#include "host/stage/temporal.hpp"
 
 namespace macula::method {
 
@@ -25,8 +26,9 @@ frame::Graph make_logpolar(const stage::Kit& kit, const Options& options) {
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
         stage::shade(kit, !occlusion, occlusion),
         stage::average_listed(kit, "surface colour", "sampled colour", 16),
+        stage::place_surfaces(log_polar),
     });
-    graph.add(stage::remap_log_polar(log_polar));
+    graph.add(stage::remap_log_polar(log_polar)).add(stage::remap_surfaces(log_polar));
     return graph;
 }
 
