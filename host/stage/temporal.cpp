@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "upscale/planes.h"
-#include "upscale/settings.h"
+#include "shared/planes.h"
 
 namespace macula::stage {
 namespace {
@@ -74,7 +73,7 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
     stage.name = "remap surfaces";
     stage.reads = {"fovea", "sampled surfaces", "log-polar surface", "log-polar colour", "colour"};
     stage.writes = {planes(kit.kit, "surface planes", MACULA_FOVEATED_PLANES)};
-    stage.scratch = {{"texel ranges", 16, kit.buffer->texels()},
+    stage.scratch = {{"texel ranges", 8, kit.buffer->texels()},
                      {"texel motions", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);

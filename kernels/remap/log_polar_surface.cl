@@ -1,12 +1,12 @@
-/* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where
- * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's for
+/* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where it
+ * was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's for
  * others there: motion is the mean over the samples around a pixel, depth their range. */
 #include "lib/camera.h"
 #include "lib/log_polar.h"
 #include "lib/strip.h"
+#include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/fovea.h"
-#include "upscale/planes.h"
 
 static inline float luminance(float4 c) {
     return fma(c.x, 0.2126f, fma(c.y, 0.7152f, c.z * 0.0722f));
@@ -33,14 +33,14 @@ static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
     }
 }
 
-/* One work-item a texel. ranges: the least and the greatest depth of three by three texels, and the
- * deviation of their luminance; motions: their mean, 1. Texels without a sample have colours whose
- * alpha is 0. */
+/* One work-item a texel. ranges: the least and the greatest depth of three by three texels;
+ * motions: their mean, the deviation of the luminance, 1. Texels without a sample have colours whose alpha
+ * is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
                              global const float4* restrict colours,
                              global const float4* restrict surfaces,
-                             global float4* restrict ranges, global float4* restrict motions) {
+                             global float2* restrict ranges, global float4* restrict motions) {
     const uint texel = (uint)get_global_id(0), row = texel / params->width;
     const uint column = texel % params->width;
     if (row >= params->height || column < fovea->first_column)
@@ -58,8 +58,8 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const float spread = variance > 1e-12f ? m_sqrt(variance) : 0.0f;
     const float moved = m_divide(1.0f, m_max(sums.movable, 1.0f));
     const uint to = row * params->pitch + column + 1u;
-    ranges[to] = (float4)(sums.least, sums.most, spread, 0.0f);
-    motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, 0.0f,
+    ranges[to] = (float2)(sums.least, sums.most);
+    motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
                            sums.movable > 0.0f ? 1.0f : 0.0f);
 }
 
@@ -109,13 +109,14 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
     const Real share = m_divide(one, known ? sum.w : one), none = splat(MACULA_NO_MOTION);
     sum.xyz.x = known ? sum.xyz.x * share : none;
     sum.xyz.y = known ? sum.xyz.y * share : none;
+    sum.xyz.z = sum.xyz.z * share;
     return sum;
 }
 
 /* One work-item a strip. sampled_planes: depth and motion of the disk. */
 kernel void remap_surfaces(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
-                           global const Fovea* restrict fovea, global const float4* restrict ranges,
+                           global const Fovea* restrict fovea, global const float2* restrict ranges,
                            global const float4* restrict motions,
                            global const float* restrict sampled_planes,
                            global float* restrict planes) {
@@ -128,7 +129,7 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     const Real own = plane_at(sampled_planes + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
     Real motion_x = plane_at(sampled_planes + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
     Real motion_y = plane_at(sampled_planes + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
-    Real3 range = make3(own, own, splat(0.0f));
+    Real least = own, most = own, spread = splat(0.0f);
     if (any_lane(strip_inside(&s) & (distance >= splat(fovea->radius)))) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
@@ -136,14 +137,16 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
                                         m_max(distance, splat(fovea->inner)));
         const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
         const Lane4 motion = motion_at(params, motions, &p);
-        range = select3(sampled, range, gather4(ranges, nearest).xyz);
+        least = sampled ? least : MACULA_GATHER(float, ranges, nearest, .x);
+        most = sampled ? most : MACULA_GATHER(float, ranges, nearest, .y);
+        spread = sampled ? spread : motion.xyz.z;
         motion_x = sampled ? motion_x : motion.xyz.x;
         motion_y = sampled ? motion_y : motion.xyz.y;
     }
-    store_plane(planes + MACULA_PLANE_DEPTH * pixels, &s, range.x);
+    store_plane(planes + MACULA_PLANE_DEPTH * pixels, &s, least);
     store_plane(planes + MACULA_PLANE_MOTION_X * pixels, &s, motion_x);
     store_plane(planes + MACULA_PLANE_MOTION_Y * pixels, &s, motion_y);
-    store_plane(planes + MACULA_PLANE_LEAST * pixels, &s, range.x);
-    store_plane(planes + MACULA_PLANE_MOST * pixels, &s, range.y);
-    store_plane(planes + MACULA_PLANE_SPREAD * pixels, &s, range.z);
+    store_plane(planes + MACULA_PLANE_LEAST * pixels, &s, least);
+    store_plane(planes + MACULA_PLANE_MOST * pixels, &s, most);
+    store_plane(planes + MACULA_PLANE_SPREAD * pixels, &s, spread);
 }

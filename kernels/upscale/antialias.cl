@@ -3,10 +3,10 @@
 #include "lib/camera.h"
 #include "lib/cache_info.h"
 #include "lib/footprint.h"
+#include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/fovea.h"
 #include "upscale/neighbours.h"
-#include "upscale/planes.h"
 
 #define LEAST_BIAS 0.1f   /* of the retention bias, section 4.4 */
 #define MOST_WORTH 255.0f /* samples that a colour can be worth */
@@ -33,8 +33,8 @@ static inline bool stands_still(global const FrameParams* frame) {
 static inline Neighbours find_neighbours(global const float4* colour, const Strip* s, Real* light) {
     Neighbours n = no_neighbours();
     Real sum = splat(0.0f);
-    for (int k = 0; k < 9; ++k) {
-        const Real3 c = colours_at(colour, s, k % 3 - 1, k / 3 - 1).xyz;
+    for (uint k = 0u; k < 9u; ++k) {
+        const Real3 c = colours_at(colour, s, (int)(k % 3u) - 1, (int)(k / 3u) - 1).xyz;
         sum = sum + luminance_of(c);
         add_neighbour(&n, c);
     }

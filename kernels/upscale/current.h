@@ -71,8 +71,8 @@ MACULA_ALWAYS_INLINE Real3 smooth_colour(global const float* planes, uint pixels
                                          const Source* s) {
     const Weights3 across = quadratic_weights(s->to_x), down = quadratic_weights(s->to_y);
     Real3 sum = splat_vector(splat3(0.0f));
-    for (int k = 0; k < 9; ++k) {
-        const int i = k % 3, j = k / 3;
+    for (uint k = 0u; k < 9u; ++k) {
+        const int i = (int)(k % 3u), j = (int)(k / 3u);
         const Real weight = across.w[i] * down.w[j];
         const Real3 sample = make3(source_at(planes, s, i - 1, j - 1),
                                    source_at(planes + pixels, s, i - 1, j - 1),

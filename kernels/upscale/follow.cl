@@ -3,8 +3,8 @@
  * the nearest neighbour's motion). */
 #include "lib/camera.h"
 #include "lib/footprint.h"
+#include "shared/planes.h"
 #include "shared/surface.h"
-#include "upscale/planes.h"
 
 /* Part by which a depth may differ from what it is expected to be. */
 #define DEPTH_TOLERANCE 0.1f
@@ -21,8 +21,8 @@ static inline Nearest nearest_surface(global const float* surfaces, uint pixels,
     n.depth = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, s, 0, 0);
     n.motion_x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
     n.motion_y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
-    for (int k = 0; k < 9; ++k) {
-        const int dx = k % 3 - 1, dy = k / 3 - 1;
+    for (uint k = 0u; k < 9u; ++k) {
+        const int dx = (int)(k % 3u) - 1, dy = (int)(k / 3u) - 1;
         const Real depth = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, s, dx, dy);
         const Mask closer = depth < n.depth;
         if (!any_lane(closer))
@@ -95,10 +95,11 @@ kernel void follow_surfaces(global const FrameParams* restrict frame, uint range
         const Real past_least = nearest_tap(past_range, &f);
         const Real past_most = nearest_tap(past_range + pixels, &f);
         /* Before the first frame all depths are 0. */
-        const Mask same = seen & (past_depth(frame, &s, nearest) <= past_most * splat(1.0f + DEPTH_TOLERANCE)) &
-                          (past_depth(frame, &s, furthest) >=
-                           past_least * splat(1.0f - DEPTH_TOLERANCE)) &
-                          (past_most > splat(0.0f));
+        const Mask reaches = past_depth(frame, &s, nearest) <=
+                             past_most * splat(1.0f + DEPTH_TOLERANCE);
+        const Mask begins = past_depth(frame, &s, furthest) >=
+                            past_least * splat(1.0f - DEPTH_TOLERANCE);
+        const Mask same = seen & reaches & begins & (past_most > splat(0.0f));
         kept_x = same ? n.motion_x : none;
         kept_y = same ? n.motion_y : none;
     }

@@ -1,10 +1,9 @@
 /* The picture of temporal upscaling, sharpened: what a history loses when it is read between its
  * pixels. The history itself stays as it is. */
 #include "lib/camera.h"
+#include "shared/planes.h"
 #include "upscale/current.h"
 #include "upscale/fovea.h"
-#include "upscale/planes.h"
-#include "upscale/settings.h"
 
 /* Away from the mean of its four neighbours, the less the nearer to black or white they come, and
  * not beyond what they span. */

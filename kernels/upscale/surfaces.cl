@@ -1,6 +1,6 @@
 /* Depth and motion of samples on their way from slots to pixels. */
 #include "lib/camera.h"
-#include "upscale/planes.h"
+#include "shared/planes.h"
 
 /* One work-item a slot. Samples of pixels go to the planes; others, of kernel log-polar foveation,
  * to its texels: depth, motion, 1. */

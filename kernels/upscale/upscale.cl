@@ -2,12 +2,11 @@
  * puts them in ever other places (Yang et al. 2009 and 2020; Karis 2014). */
 #include "lib/camera.h"
 #include "lib/footprint.h"
+#include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/current.h"
 #include "upscale/fovea.h"
 #include "upscale/neighbours.h"
-#include "upscale/planes.h"
-#include "upscale/settings.h"
 
 #define MOVING_WORTH 4.0f /* samples that a colour can be worth while the view moves ... */
 #define STILL_WORTH 64.0f /* ... and while it stands still */
@@ -33,8 +32,8 @@ static inline Current find_current(global const float* planes, uint pixels, cons
     c.sum = c.smooth = nothing;
     c.weight = zero;
     c.around = no_neighbours();
-    for (int k = 0; k < 9; ++k) {
-        const int i = k % 3, j = k / 3;
+    for (uint k = 0u; k < 9u; ++k) {
+        const int i = (int)(k % 3u), j = (int)(k / 3u);
         const Real3 sample = make3(source_at(planes, s, i - 1, j - 1),
                                    source_at(planes + pixels, s, i - 1, j - 1),
                                    source_at(planes + 2u * pixels, s, i - 1, j - 1));

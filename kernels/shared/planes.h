@@ -1,7 +1,8 @@
-/* The planes that the stages of this folder share: one float for each pixel that is rendered, one
- * plane after another. */
-#ifndef MACULA_UPSCALE_PLANES_H
-#define MACULA_UPSCALE_PLANES_H
+/* The planes that temporal anti-aliasing and upscaling share: one float for each pixel, one plane
+ * after another. */
+#ifndef MACULA_SHARED_PLANES_H
+#define MACULA_SHARED_PLANES_H
+
 
 /* "surface planes": what each pixel shows. */
 #define MACULA_PLANE_DEPTH 0u    /* along the view axis; MACULA_BACKGROUND_DEPTH: nothing */
@@ -17,5 +18,10 @@
 /* "stable planes", "upscaled planes": colours, and what they are worth in samples. */
 #define MACULA_PLANE_WORTH 3u
 #define MACULA_COLOUR_PLANES 4u
+
+/* What the upscaler does beyond the disk of a foveated method. */
+#define MACULA_BEYOND_NOTHING 0u /* there is no disk */
+#define MACULA_BEYOND_GATHER 1u  /* gather, without jitter */
+#define MACULA_BEYOND_SMOOTH 2u  /* enlarge what is smooth already */
 
 #endif
