@@ -24,12 +24,13 @@ constexpr std::array kKeys = {
     Key{"eps-merge", &stage::WeierOptions::merge_threshold},
     Key{"k-min", &stage::WeierOptions::k_min},
     Key{"k-max", &stage::WeierOptions::k_max},
+    Key{"resampled-worth", &stage::WeierOptions::resampled_worth},
 };
 
 [[noreturn]] void refuse(const std::string& part) {
     throw std::invalid_argument(
         fmt::format("--parameters: \"{}\": KEY=NUMBER was expected, with eps-depth, eps-lum, "
-                    "eps-edge, eps-stretch, eps-merge, k-min, k-max or t-max",
+                    "eps-edge, eps-stretch, eps-merge, k-min, k-max, resampled-worth or t-max",
                     part));
 }
 

@@ -24,9 +24,11 @@ constexpr std::array kEntries = {
     Entry{"queue ", StageGroup::ray_tracing},
     Entry{"add light", StageGroup::ray_tracing},
     Entry{"shade", StageGroup::ray_tracing},
+    Entry{"bounce ", StageGroup::ray_tracing},
     Entry{"average ", StageGroup::ray_tracing},
     Entry{"keep the first ", StageGroup::ray_tracing},
     Entry{"extract the support image and G-buffer", StageGroup::cache_update},
+    Entry{"measure the history's lag", StageGroup::cache_update},
     Entry{"update and merge the cache", StageGroup::merge},
     Entry{"post-process", StageGroup::post},
 };

@@ -6,15 +6,14 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <tuple>
 
 #include "bench/figure5.hpp"
 #include "bench/table1.hpp"
+#include "host/app/bench_options.hpp"
 #include "host/app/render_options.hpp"
 
 namespace macula::app {
@@ -43,7 +42,7 @@ void add_options(CLI::App& command, Options& options) {
                        "MACULA_SCENE_PATH and ../shared/scenes follow");
     command
         .add_option("--lights", options.lights,
-                    "point, area, ao, separated by commas (default: all three)")
+                    "point, area, soft, ao, separated by commas (default: all but soft)")
         ->delimiter(',');
     command.add_option("--frames", f.frames, "Measured frames")->capture_default_str();
     command.add_option("--segments", f.segments, "Stretches of the path that the frames lie in")
@@ -62,31 +61,10 @@ void add_options(CLI::App& command, Options& options) {
 /// What both benchmarks take from the command line. Throws std::invalid_argument.
 FoveationOptions parse(const Options& options) {
     FoveationOptions flight = options.flight;
-    for (const std::string& name : options.lights) {
-        const auto mode = frame::parse_light_mode(name);
-        if (!mode)
-            throw std::invalid_argument(
-                fmt::format("--lights \"{}\": point, area or ao was expected", name));
-        flight.lights.push_back(*mode);
-    }
-    if (!options.size.empty()) {
-        ViewOptions view;
-        view.size = options.size;
-        std::tie(flight.width, flight.height) = size_of(view, 0, 0);
-        if (flight.width == 0 || flight.height == 0)
-            throw std::invalid_argument("--size \"" + options.size + "\": no pixels");
-    }
+    flight.lights = parse_lights(options.lights);
+    std::tie(flight.width, flight.height) = parse_size(options.size);
     flight.bvh_cache = bvh_cache_folder();
     return flight;
-}
-
-FoveationProgress progress_on(bool terminal) {
-    FoveationProgress progress;
-    progress.note = [terminal](const std::string& line) {
-        if (terminal)
-            fmt::print(stderr, "\r\033[K{}\r", line);
-    };
-    return progress;
 }
 
 void print(const std::string& text) {
@@ -98,7 +76,8 @@ int run_table1(const Options& options) {
     FoveationOptions flight = parse(options);
     if (flight.scenes.empty())
         flight.scenes = bench::table1_scenes(flight.scene_path);
-    FoveationProgress progress = progress_on(isatty(STDERR_FILENO) != 0);
+    FoveationProgress progress;
+    progress.note = progress_line();
     progress.more = bench::paper_fields;
     progress.row = [&](const FoveationRow& row, bool) {
         print(options.json ? json_line(row, bench::paper_fields(row)) + "\n"
@@ -116,7 +95,8 @@ int run_figure5(const Options& options) {
     FoveationOptions flight = parse(options);
     if (flight.scenes.empty())
         flight.scenes = bench::figure5_scenes(flight.scene_path);
-    FoveationProgress progress = progress_on(isatty(STDERR_FILENO) != 0);
+    FoveationProgress progress;
+    progress.note = progress_line();
     progress.row = [&](const FoveationRow& row, bool) {
         print(options.json ? json_line(row) + "\n" : bench::figure5_line(row));
     };

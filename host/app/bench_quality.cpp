@@ -6,7 +6,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include <tuple>
 
 #include "bench/quality.hpp"
+#include "host/app/bench_options.hpp"
 #include "host/app/render_options.hpp"
 #include "host/kernel/program_cache.hpp"
 
@@ -45,7 +45,7 @@ void add_what(CLI::App& command, Options& options) {
                        "MACULA_SCENE_PATH and ../shared/scenes follow");
     command
         .add_option("--lights", options.lights,
-                    "point, area, ao, separated by commas (default: area)")
+                    "point, area, soft, ao, separated by commas (default: area)")
         ->delimiter(',');
     command
         .add_option("--methods", q.methods,
@@ -57,9 +57,10 @@ void add_what(CLI::App& command, Options& options) {
     command
         .add_option("--spp", q.spp, "Samples per pixel of full, separated by commas (default 1)")
         ->delimiter(',');
-    command.add_option("--parameters", options.changes,
-                       "Of weier, as KEY=VALUE,... with eps-depth, eps-lum, eps-edge, eps-stretch, "
-                       "eps-merge, k-min, k-max, t-max of render; may be repeated, \"\": none");
+    command.add_option(
+        "--parameters", options.changes,
+        "Of weier, as KEY=VALUE,... with eps-depth, eps-lum, eps-edge, eps-stretch, "
+        "eps-merge, k-min, k-max, resampled-worth, t-max of render; may be repeated, \"\": none");
     command
         .add_option("--equal", q.equal,
                     "What lowres has in common with weier: samples, time (default: each)")
@@ -108,13 +109,7 @@ void add_results(CLI::App& command, Options& options) {
 /// Throws std::invalid_argument.
 QualityOptions parse(const Options& options) {
     QualityOptions quality = options.quality;
-    for (const std::string& name : options.lights) {
-        const auto mode = frame::parse_light_mode(name);
-        if (!mode)
-            throw std::invalid_argument(
-                fmt::format("--lights \"{}\": point, area or ao was expected", name));
-        quality.lights.push_back(*mode);
-    }
+    quality.lights = parse_lights(options.lights);
     const std::vector<std::string> medium = {"medium"}, none = {""};
     for (const std::string& region : options.regions.empty() ? medium : options.regions) {
         for (const std::string& changes : options.changes.empty() ? none : options.changes) {
@@ -124,13 +119,7 @@ QualityOptions parse(const Options& options) {
             quality.weier.push_back(weier);
         }
     }
-    if (!options.size.empty()) {
-        ViewOptions view;
-        view.size = options.size;
-        std::tie(quality.width, quality.height) = size_of(view, 0, 0);
-        if (quality.width == 0 || quality.height == 0)
-            throw std::invalid_argument("--size \"" + options.size + "\": no pixels");
-    }
+    std::tie(quality.width, quality.height) = parse_size(options.size);
     quality.bvh_cache = bvh_cache_folder();
     const std::filesystem::path cache = kernel::ProgramCache::default_folder();
     if (!options.no_reference_cache && !cache.empty())
@@ -183,10 +172,7 @@ int run(const Options& options) {
     const QualityOptions quality = parse(options);
     prepare(options, quality);
     bench::QualityProgress progress;
-    progress.note = [terminal = isatty(STDERR_FILENO) != 0](const std::string& line) {
-        if (terminal)
-            fmt::print(stderr, "\r\033[K{}\r", line);
-    };
+    progress.note = progress_line();
     progress.done = [&](const QualityCase& result, bool) {
         if (options.json)
             fmt::print("{}\n", json_line(result));

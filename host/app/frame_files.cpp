@@ -54,6 +54,13 @@ void FrameFiles::write_exr(const std::filesystem::path& path, const render::Rend
     for (const std::string& name : aovs_) {
         const Aov& aov = find_aov(name);
         images.push_back(renderer.map(aov.image));
+        if (images.back().width != images.front().width ||
+            images.back().height != images.front().height)
+            throw std::invalid_argument(fmt::format(
+                "--aov {}: method {} renders {} x {} pixels for a picture of {} x {}, and a file "
+                "has one size",
+                name, renderer.options().method, images.back().width, images.back().height,
+                images.front().width, images.front().height));
         layers.push_back(layer_of(images.back(), {aov.channels.begin(), aov.channels.end()}));
     }
     output::write_exr(path, images.front().width, images.front().height, layers, metadata);

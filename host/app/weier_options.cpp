@@ -81,6 +81,8 @@ void WeierOptions::add_to(CLI::App& command) {
         ->group("Method lowres");
     command.add_flag("--no-post", no_post, "No post-processor for area lights and ao")
         ->group("Method weier");
+    command.add_flag("--no-catch-up", no_catch_up, "The history keeps highlights as it saw them")
+        ->group("Method weier");
     command.add_flag("--jitter", engine.jitter, "Rays through a random point of the pixel")
         ->group("Method weier");
     command.add_flag("--overlay", engine.overlay, "Draw foveal circles and sampled pixels")
@@ -91,6 +93,7 @@ stage::WeierOptions engine_options(const WeierOptions& options) {
     stage::WeierOptions engine = options.engine;
     parse_frc(options.frc, engine);
     engine.post = !options.no_post;
+    engine.catch_up = !options.no_catch_up;
     engine.first_frame_full = is_first("--first-frame", options.first_frame, "full", "sparse");
     engine.resample_new = is_first("--new-parts", options.new_parts, "sample", "fill");
     if (!options.support.empty()) {

@@ -16,7 +16,7 @@ struct WeierOptions {
     stage::WeierOptions engine;          // but for what has a member here
     std::string first_frame = "full";    // or "sparse"
     std::string new_parts = "sample";    // or "fill"
-    bool no_post = false;
+    bool no_post = false, no_catch_up = false;
     float lowres_scale = 0.46f; // 0..1; by default about as many samples as the medium region
 
     void add_to(CLI::App& command);

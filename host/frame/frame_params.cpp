@@ -27,6 +27,16 @@ bool is_finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// The digits of `index` mirrored at the point (Halton 1964).
+double radical_inverse(std::uint32_t index, std::uint32_t base) {
+    double value = 0.0, place = 1.0;
+    for (; index > 0; index /= base) {
+        place /= base;
+        value += place * (index % base);
+    }
+    return value;
+}
+
 // N when count = N * N, else 0.
 std::uint32_t grid_side(std::uint32_t count) {
     std::uint32_t side = 1;
@@ -118,10 +128,21 @@ scene::Camera camera_at(const scene::Scene& scene, float frame) {
     return camera;
 }
 
+Jitter jitter_of(std::uint32_t frame, std::uint32_t phases) {
+    if (phases == 0)
+        return {};
+    const std::uint32_t index = frame % phases + 1;
+    return {static_cast<float>(radical_inverse(index, 2) - 0.5),
+            static_cast<float>(radical_inverse(index, 3) - 0.5)};
+}
+
 void check(const FrameSettings& s) {
     check_range("the width", s.width, 1, 16384);
     check_range("the height", s.height, 1, 16384);
     check_range("samples per pixel", s.samples_per_pixel, 1, 65536);
+    if (!(std::fabs(s.lod_bias) <= 16.0f))
+        throw std::invalid_argument(
+            fmt::format("the bias of texture levels must be -16 to 16, not {}", s.lod_bias));
     check_range("ambient occlusion samples", s.ambient_occlusion_samples, 0, 4096);
     if (s.ambient_occlusion_samples > 0 &&
         !(s.ambient_occlusion_radius > 0.0f && s.ambient_occlusion_radius < 1e18f))
@@ -151,6 +172,10 @@ shared::FrameParams make_params(const FrameSettings& settings, std::uint32_t fra
     // Each of the pixel's samples stands for its share of the pixel's area.
     p.pixel_spread = (camera.tan_left + camera.tan_right) / static_cast<float>(settings.width) /
                      std::sqrt(static_cast<float>(settings.samples_per_pixel));
+    p.lod_bias = settings.lod_bias + shared::m_log2(settings.sharpening);
+    const Jitter jitter = jitter_of(frame, settings.jitter_phases);
+    p.jitter[0] = jitter.x;
+    p.jitter[1] = jitter.y;
     store_gaze(gaze, p);
     for (int i = 0; i < 3; ++i) {
         p.ambient[i] = settings.ambient[i];

@@ -37,10 +37,19 @@ struct FrameSettings {
     float ambient_occlusion_radius = 1.0f;       // world units, > 0
     float ambient[3] = {0.0f, 0.0f, 0.0f};       // radiance
     float background[3] = {0.0f, 0.0f, 0.0f};    // radiance
+    std::uint32_t jitter_phases = 0;             // frames until the jitter repeats; 0: none
+    float sharpening = 1.0f; // textures are filtered for pixels this much narrower, at most 1
+    float lod_bias = 0.0f;   // levels that every texture lookup goes up, -16..16
 };
 
 // Throws std::invalid_argument that names the setting out of range.
 void check(const FrameSettings& settings);
+
+// Samples move within their pixels along Halton's sequence in the bases 2 and 3.
+struct Jitter {
+    float x = 0.0f, y = 0.0f; // from the pixel's middle, -0.5..0.5 pixels
+};
+Jitter jitter_of(std::uint32_t frame, std::uint32_t phases);
 
 // Where the eye looks in one frame.
 struct Gaze {

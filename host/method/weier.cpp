@@ -62,15 +62,20 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     if (light.filtered)
         sampling.push_back(stage::filter_light(foveated, light.fresh, light.image, light.bytes));
     sampling.push_back(stage::shade(kit, !occlusion, occlusion, light.shaded(), light.shaded()));
-    sampling.push_back(stage::average_listed(kit, "surface colour", "sampled colour", 16));
+    const std::string colour = add_secondary_rays(sampling, kit, options);
+    sampling.push_back(stage::average_listed(kit, colour, "sampled colour", 16));
     if (light.filtered)
         sampling.push_back(
             stage::average_listed(kit, light.shaded(), "sampled light", light.bytes));
     graph.for_each_sample(std::move(sampling));
 
     // Block 3: cache update and merge.
-    graph.add(stage::extract_support(foveated))
-        .add(stage::merge_cache(foveated, light.image, light.bytes))
+    // Ambient occlusion does not depend on the view: what lags there is noise.
+    const bool catch_up = options.weier.catch_up && !occlusion;
+    graph.add(stage::extract_support(foveated));
+    if (catch_up)
+        graph.add(stage::measure_lag(foveated));
+    graph.add(stage::merge_cache(foveated, catch_up, light.image, light.bytes))
         .add(stage::show_intermediates(foveated));
     if (options.weier.overlay)
         graph.add(stage::draw_overlay(foveated));

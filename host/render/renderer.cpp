@@ -12,6 +12,8 @@
 namespace macula::render {
 namespace {
 
+constexpr const char* kLensImage = "lens image";
+
 constexpr std::array kFormats = {
     ImageFormat{"colour", 4, 3, false, "linear RGB radiance, mean of the samples"},
     ImageFormat{"albedo", 4, 3, false, "diffuse reflectance, linear RGB, mean of the samples"},
@@ -33,8 +35,10 @@ constexpr std::array kFormats = {
     ImageFormat{"cache age", 1, 1, true, "frames since the last sample; 1048575: none"},
     ImageFormat{"rho", 1, 1, false, "samples that the colour is worth"},
     // Where Options::lens is given.
-    ImageFormat{"lens image", 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
+    ImageFormat{kLensImage, 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
 };
+
+constexpr std::uint32_t kMaxDepth = 16;
 
 bool has_highlights(const scene::Scene& scene) {
     for (const scene::Material& m : scene.materials)
@@ -46,11 +50,15 @@ bool has_highlights(const scene::Scene& scene) {
 frame::FrameSettings settings_of(const scene::Scene& scene, const Options& options,
                                  std::size_t lights) {
     const bool occlusion = options.lights == frame::LightMode::ambient_occlusion;
+    const method::Method& method = method::find_method(options.method);
+    const method::Size size = method.render_size(options.width, options.height, options.temporal);
     frame::FrameSettings s;
-    s.width = options.width;
-    s.height = options.height;
+    s.width = size.width;
+    s.height = size.height;
+    s.jitter_phases = method.jitter_phases(options.width, options.temporal);
     s.samples_per_pixel = options.samples_per_pixel;
     s.seed = options.seed;
+    s.lod_bias = options.lod_bias;
     s.light_count = static_cast<std::uint32_t>(lights);
     if (occlusion) {
         s.ambient_occlusion_samples = options.ambient_occlusion_samples;
@@ -63,6 +71,9 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
         s.background[i] = scene.background[i];
     }
     frame::check(s);
+    if (options.depth > kMaxDepth)
+        throw std::invalid_argument(
+            fmt::format("depth {} is not between 0 and {}", options.depth, kMaxDepth));
     if (occlusion && s.ambient_occlusion_samples == 0)
         throw std::invalid_argument("lights \"ao\" need at least one ambient occlusion sample");
     return s;
@@ -84,12 +95,14 @@ std::shared_ptr<DeviceScene> checked_scene(const compute::Device& device, const 
 }
 
 frame::Graph make_graph(const stage::Kit& kit, const Options& o) {
+    const method::Method& method = method::find_method(o.method);
     frame::Graph graph =
-        method::find_method(o.method).make(kit, {o.lights, o.weier, o.lowres_scale, o.log_polar});
+        method.make(kit, {o.lights, o.weier, o.lowres_scale, o.log_polar, o.temporal});
     if (o.lens && !o.tangents)
         throw std::invalid_argument("a lens needs the tangents of its display's field of view");
     if (o.lens)
-        graph.add(stage::prewarp(kit, stage::make_lens(*o.lens, *o.tangents, o.width, o.height)));
+        graph.add(stage::prewarp(kit, stage::make_lens(*o.lens, *o.tangents, o.width, o.height),
+                                 method.picture()));
     return graph;
 }
 
@@ -115,23 +128,28 @@ struct Renderer::State {
     State(std::shared_ptr<DeviceScene> shared_scene, const scene::Scene& scene, const Options& o)
         : on_device(std::move(shared_scene)), device(on_device->device), options(o),
           views(views_of(scene)), ray_totals(zeroed_counters(device)),
-          lights(frame::make_lights(scene, o.lights, o.light_samples)),
+          lights(frame::make_lights(
+              scene, o.lights, o.light_samples.value_or(frame::default_light_samples(o.lights)))),
           settings(settings_of(scene, o, lights.size())),
           tracer(device, on_device->library, on_device->geometry,
                  stage::choose_variants(device, o.variant)),
           graph(make_graph({device, on_device->library, on_device->geometry, on_device->surfaces,
-                            tracer, o.width, o.height, lights, settings.ambient_occlusion_samples,
-                            has_highlights(scene), ray_totals,
-                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes},
+                            tracer, settings.width, settings.height, lights,
+                            settings.ambient_occlusion_samples, has_highlights(scene), ray_totals,
+                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes, o.width, o.height,
+                            frame::has_optics(scene) ? o.depth : 0},
                            o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());
-        outputs.insert("colour");
+        outputs.erase(kFormats.front().name);
+        outputs.insert(colour());
         outputs.insert(picture());
         graph.compile(device, outputs);
     }
 
-    const char* picture() const { return options.lens ? "lens image" : "colour"; }
+    // The resource that is delivered as the image "colour".
+    const char* colour() const { return method::find_method(options.method).picture(); }
+    const char* picture() const { return options.lens ? kLensImage : colour(); }
 
     std::shared_ptr<DeviceScene> on_device;
     compute::Device device;
@@ -206,30 +224,33 @@ FrameReport Renderer::finish() {
     return report;
 }
 
+Image Renderer::image(const std::string& resource, const ImageFormat& format,
+                      method::Size size) const {
+    auto mapping = state_->graph.result(resource).map_read<std::uint32_t>();
+    const std::span<const std::uint32_t> words(mapping.data(), mapping.size());
+    std::span<const float> floats;
+    if (!format.integer)
+        floats = {reinterpret_cast<const float*>(words.data()), words.size()};
+    return {size.width, size.height, format.components, format.integer,
+            floats,     words,       std::move(mapping)};
+}
+
 Image Renderer::map(const std::string& name) const {
+    const State& s = *state_;
+    const bool colour = name == kFormats.front().name, lens = name == kLensImage;
+    const method::Size size = colour || lens ? method::Size{s.options.width, s.options.height}
+                                             : method::Size{s.settings.width, s.settings.height};
+    const std::string resource = colour ? s.colour() : name;
     for (const ImageFormat& format : kFormats) {
-        const compute::Buffer& buffer = state_->graph.result(name);
-        if (format.name != name || !buffer)
-            continue;
-        auto mapping = buffer.map_read<std::uint32_t>();
-        const std::span<const std::uint32_t> words(mapping.data(), mapping.size());
-        std::span<const float> floats;
-        if (!format.integer)
-            floats = {reinterpret_cast<const float*>(words.data()), words.size()};
-        return {state_->options.width,
-                state_->options.height,
-                format.components,
-                format.integer,
-                floats,
-                words,
-                std::move(mapping)};
+        if (format.name == name && s.graph.result(resource))
+            return image(resource, format, size);
     }
     throw std::invalid_argument(
         fmt::format("image \"{}\" was not asked for when the renderer was made", name));
 }
 
 Image Renderer::picture() const {
-    return map(state_->picture());
+    return map(state_->options.lens ? kLensImage : kFormats.front().name);
 }
 
 std::string Renderer::hash() const {

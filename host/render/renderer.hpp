@@ -22,6 +22,7 @@
 #include "host/frame/lights.hpp"
 #include "host/frame/timings.hpp"
 #include "host/kernel/variants.hpp"
+#include "host/method/method.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/stage/foveated.hpp"
 #include "host/stage/lens.hpp"
@@ -34,23 +35,27 @@ struct Options {
     std::uint32_t width = 640, height = 480; // pixels, each 1..16384
     std::string method = "full";             // method::methods()
     frame::LightMode lights = frame::LightMode::point;
-    std::uint32_t light_samples = 8;              // rays for each area light, 1..4096
+    // Rays for each area light, 1..4096; without one frame::default_light_samples().
+    std::optional<std::uint32_t> light_samples;
     std::uint32_t ambient_occlusion_samples = 16; // 1..4096
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
+    float lod_bias = 0.0f; // levels that every texture lookup goes up, -16..16
     std::uint32_t seed = 0;
+    std::uint32_t depth = 1; // levels of reflected and refracted rays, 0..16
     std::uint32_t lanes = 0; // ray slots to a work-item of the shading kernels: 1, 16; 0: by device
-    std::string variant; // a traversal variant for all rays; empty: chosen for device and rays
+    std::string variant;     // a traversal variant for all rays; empty: chosen for device and rays
     // Of the display; without them the camera's vertical field of view and square pixels.
     std::optional<frame::Tangents> tangents;
     // Warps the picture for the display's lens; needs `tangents`.
     std::optional<stage::LensDistortion> lens;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
-    stage::WeierOptions weier;       // of method "weier"
-    float lowres_scale = 0.46f;      // of method "lowres": part of the pixels along each axis, 0..1
+    stage::WeierOptions weier;  // of method "weier"
+    float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar; // of method "logpolar"
-    frame::GeometryOptions geometry; // unless the scene is on the device already
+    method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
+    frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };
 
@@ -105,8 +110,8 @@ class Renderer {
     void start(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze = {});
     FrameReport finish();
 
-    // An image of the last frame: "colour" or one of Options::images. Throws std::invalid_argument
-    // for another name.
+    // An image of the last frame: "colour" or one of Options::images. Those have the size that is
+    // rendered, the colour that of the picture. Throws std::invalid_argument for another name.
     Image map(const std::string& name) const;
     // What is to be shown: "colour", or "lens image" where Options::lens is given.
     Image picture() const;
@@ -129,6 +134,8 @@ class Renderer {
     std::string explain() const;
 
   private:
+    Image image(const std::string& resource, const ImageFormat& format, method::Size size) const;
+
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -38,13 +38,44 @@ frame::Stage extract_support(const FoveatedKit& kit) {
     return stage;
 }
 
-frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
+frame::Stage measure_lag(const FoveatedKit& kit) {
+    frame::Stage stage;
+    stage.name = "measure the history's lag";
+    stage.reads = {"mesh vertices", "pixel keys", "history kept", "support image",
+                   "support geometry"};
+    stage.reads_last = {kit.image};
+    stage.writes = {kit.per_support("history correction", 16)};
+    stage.scratch = {kit.per_support("lag", 16)};
+    stage.prepare = [kit, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        const kernel::VariantKey key("cache/lag");
+        auto measure = kit.kit.library.kernel(key, "measure_lag", kit.kit.device);
+        auto agree = kit.kit.library.kernel(key, "agree_on_lag", kit.kit.device);
+        return [kit, name, measure, agree](frame::Run& run) mutable {
+            const SupportGrid& grid = *kit.grid;
+            const auto range = compute::Range::cover(grid.samples(), kGroup);
+            measure
+                .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
+                     grid.mesh_columns, grid.mesh_rows, run["mesh vertices"], run["pixel keys"],
+                     run["history kept"], run.last(kit.image), run["support image"],
+                     run["support geometry"], run.scratch("lag"))
+                .launch(name, {range}, {kGroup});
+            agree.set(grid.params_buffer, run.scratch("lag"), run["history correction"])
+                .launch(name, {range}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::string& light,
                          std::uint32_t light_bytes) {
     frame::Stage stage;
     stage.name = "update and merge the cache";
     stage.reads = {"mesh vertices",  "mesh cells",     "pixel keys",
                    "history kept",   "sampling masks", "support image",
                    "sampled colour", "surface depth",  "list offsets"};
+    if (catch_up)
+        stage.reads.push_back("history correction");
     stage.reads_last = {kit.image, "cache info"};
     stage.writes = {per_pixel(kit.kit, kit.image, 16), per_pixel(kit.kit, "cache info", 8),
                     per_pixel(kit.kit, "reprojected colour", 16)};
@@ -53,14 +84,14 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
         stage.reads_last.push_back(light);
         stage.writes.push_back(per_pixel(kit.kit, light, light_bytes));
     }
-    stage.prepare = [kit, light, light_bytes, name = stage.name] {
+    stage.prepare = [kit, catch_up, light, light_bytes, name = stage.name] {
         kit.grid->prepare(kit.kit);
         const auto key = kernel::VariantKey("cache/merge")
                              .parameter("light", light_bytes / 4)
                              .parameter("packets", packets_of_item(kit.kit));
         auto kernel = kit.kit.library.kernel(key, "merge_cache", kit.kit.device);
         const std::size_t group = kit.kit.lanes == 1 ? kGroup : 1;
-        return [kit, light, light_bytes, name, group, kernel](frame::Run& run) mutable {
+        return [kit, catch_up, light, light_bytes, name, group, kernel](frame::Run& run) mutable {
             const compute::Buffer none;
             const bool lit = light_bytes != 0;
             const SupportGrid& grid = *kit.grid;
@@ -69,9 +100,10 @@ frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
                      run["mesh vertices"], run["mesh cells"], run["pixel keys"],
                      run["history kept"], run["sampling masks"], run["list offsets"],
                      run.last(kit.image), run.last("cache info"), lit ? run.last(light) : none,
-                     run["support image"], run["sampled colour"], run["surface depth"],
-                     lit ? run["sampled light"] : none, run[kit.image], run["cache info"],
-                     lit ? run[light] : none, run["reprojected colour"])
+                     run["support image"], catch_up ? run["history correction"] : none,
+                     run["sampled colour"], run["surface depth"], lit ? run["sampled light"] : none,
+                     run[kit.image], run["cache info"], lit ? run[light] : none,
+                     run["reprojected colour"])
                 .launch(name, {compute::Range::cover(merge_items(kit.kit), group)}, {group});
         };
     };

@@ -7,12 +7,15 @@ namespace macula::stage {
 
 // The parts of the list that lie on the support grid -> "support image" (float4: linear RGB
 // radiance) and "support geometry" (float4: geometric normal, depth), one entry a support sample.
+// "history correction": what the support samples agree that the history lags behind.
+frame::Stage measure_lag(const FoveatedKit& kit);
 frame::Stage extract_support(const FoveatedKit& kit);
 
 // The list's samples, last frame's image and the support image -> this frame's image (`kit.image`),
 // "cache info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the light buffer `light`
-// from "sampled light"; below 0 where no sample has been. "reprojected colour" is for looking at.
-frame::Stage merge_cache(const FoveatedKit& kit, const std::string& light,
+// from "sampled light"; below 0 where no sample has been. `catch_up`: histories are corrected by
+// "history correction". "reprojected colour", which is not, is for looking at.
+frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::string& light,
                          std::uint32_t light_bytes);
 
 } // namespace macula::stage

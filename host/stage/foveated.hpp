@@ -36,6 +36,8 @@ struct WeierOptions {
     std::uint32_t filter_samples = 4; // of a footprint (section 3.2), 0..64; 0: bilinear
     bool post = true;                 // section 3.5, for area lights and ambient occlusion
     std::uint32_t filter_window = 16, filter_tries = 8; // pixels 1..64; n 1..64
+    // Where the support samples agree that the history lags behind the view, it is corrected.
+    bool catch_up = true;
     bool overlay = false; // draw r0, r1 and the sampled pixels over the image
 };
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "lib/camera.h"
+
 namespace macula::stage {
 namespace {
 
@@ -80,17 +82,18 @@ shared::LensParams make_lens(const LensDistortion& distortion, const frame::Tang
     return lens;
 }
 
-frame::Stage prewarp(const Kit& kit, const shared::LensParams& lens) {
+frame::Stage prewarp(const Kit& kit, const shared::LensParams& lens, const std::string& picture) {
     frame::Stage stage;
     stage.name = "warp for the lens";
-    stage.reads = {"colour"};
-    stage.writes = {per_pixel(kit, "lens image", 16)};
-    stage.prepare = [kit, lens, name = stage.name] {
+    stage.reads = {picture};
+    const std::uint32_t width = kit.picture_width(), height = kit.picture_height();
+    stage.writes = {{"lens image", 16, std::uint64_t{width} * height}};
+    stage.prepare = [=, name = stage.name] {
         const compute::Buffer params = kit.device.upload(std::span(&lens, 1), "lens");
         auto kernel = kit.library.kernel(kernel::VariantKey("remap/lens"), "prewarp", kit.device);
-        return [kit, name, params, kernel](frame::Run& run) mutable {
-            kernel.set(run.params_buffer(), params, run["colour"], run["lens image"])
-                .launch(name, {kit.slots()}, {kGroup});
+        return [=](frame::Run& run) mutable {
+            kernel.set(width, height, params, run[picture], run["lens image"])
+                .launch(name, {shared::slot_count(width, height)}, {kGroup});
         };
     };
     return stage;

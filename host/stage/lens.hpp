@@ -19,7 +19,7 @@ using LensDistortion = std::array<scene::Distortion, 3>;
 shared::LensParams make_lens(const LensDistortion& distortion, const frame::Tangents& view,
                              std::uint32_t width, std::uint32_t height);
 
-// "colour" -> "lens image".
-frame::Stage prewarp(const Kit& kit, const shared::LensParams& lens);
+// `picture`, a resource of the picture's size -> "lens image".
+frame::Stage prewarp(const Kit& kit, const shared::LensParams& lens, const std::string& picture);
 
 } // namespace macula::stage

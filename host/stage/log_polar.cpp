@@ -28,8 +28,11 @@ void check(const LogPolarOptions& o) {
     require(o.fade >= 0.0f && o.fade <= 1.0f, "the disk's fade must be 0 to 1");
 }
 
-std::uint32_t texels(std::uint32_t pixels, float sigma) {
-    return std::max(static_cast<std::uint32_t>(std::lround(pixels / sigma)), 4u);
+// Not more than are rendered: the list has a slot for each pixel.
+std::uint32_t texels(std::uint32_t rendered, std::uint32_t picture, float sigma) {
+    const auto wanted =
+        static_cast<std::uint32_t>(std::lround((picture != 0 ? picture : rendered) / sigma));
+    return std::max(std::min(wanted, rendered), 4u);
 }
 
 frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
@@ -38,17 +41,31 @@ frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
 
 } // namespace
 
+const char* name(LodRule rule) {
+    return rule == LodRule::thesis ? "thesis" : "footprint";
+}
+
+LodRule parse_lod_rule(std::string_view text) {
+    for (const LodRule rule : {LodRule::footprint, LodRule::thesis})
+        if (text == name(rule))
+            return rule;
+    throw std::invalid_argument("--lod \"" + std::string(text) +
+                                "\": footprint or thesis was expected");
+}
+
 shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width,
-                                   std::uint32_t height) {
+                                   std::uint32_t height, std::uint32_t picture_width,
+                                   std::uint32_t picture_height) {
     check(o);
     shared::LogPolarParams p{};
-    p.width = texels(width, o.sigma);
-    p.height = texels(height, o.sigma);
+    p.width = texels(width, picture_width, o.sigma);
+    p.height = texels(height, picture_height, o.sigma);
     p.alpha = o.alpha;
     p.inverse_alpha = 1.0f / o.alpha;
     p.disk = o.disk;
     p.disk_tangent = std::tan(o.disk_degrees * std::numbers::pi_v<float> / 180.0f);
     p.fade = o.fade;
+    p.thesis_lod = o.lod == LodRule::thesis ? 1 : 0;
     p.pitch = p.width + 2;
     p.capacity = shared::slot_count(width, height);
     return p;

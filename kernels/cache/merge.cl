@@ -1,6 +1,7 @@
 /* Cache update and merge (Weier et al. 2016, section 3.4), together with the last step of the
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
+#include "cache/catch_up.h"
 #include "cache/samples.h"
 #include "cache/texels.h"
 #include "lib/camera.h"
@@ -134,8 +135,7 @@ typedef struct Faults {
  * nothing, so that no device meets a denormal. */
 MACULA_ALWAYS_INLINE float4 worth_when_read(const Packet* p, const Sources* sources, uint row,
                                             float4 rho) {
-    const int4 between =
-        (vload4(row, sources->lanes.to_x) != 0.0f) | (vload4(row, sources->lanes.to_y) != 0.0f);
+    const int4 between = vload4(row, sources->lanes.between);
     const float4 less = rho * p->weier->resampled_worth;
     return between ? (less < 0x1p-20f ? (float4)(0.0f) : less) : rho;
 }
@@ -264,7 +264,8 @@ MACULA_ALWAYS_INLINE uint keep_histories(const Packet* p, const Mesh* mesh, cons
 }
 
 /* One work-item MACULA_PACKETS packets of sixteen pixels, side by side: what they read lies in a
- * few rows. `reprojected_colour` may be null, and the light buffers where the method has none. */
+ * few rows. `reprojected_colour` and `correction` may be null, and the light buffers where the
+ * method has none. */
 kernel void
 merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict mesh_columns, global const float* restrict mesh_rows,
@@ -273,7 +274,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
             global const uint* restrict masks, global const uint* restrict offsets,
             global const float4* restrict past_colour, global const uint2* restrict past_info,
             global const LightValue* restrict past_light,
-            global const float4* restrict support_image,
+            global const float4* restrict support_image, global const float4* restrict correction,
             global const float4* restrict sampled_colour, global const float* restrict depth,
             global const LightValue* restrict sampled_light, global float4* restrict colour,
             global uint2* restrict info, global LightValue* restrict light,
@@ -290,6 +291,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
     const Mesh mesh = {{cells, mesh_columns, mesh_rows}, {vertices, mesh_columns, mesh_rows}};
     const uint rows = min(height - y0, 4u), rows_inside = 0x1111u & ((1u << 4u * rows) - 1u);
     const bool any_history = *history_kept != 0u;
+    const Steps steps = support_steps(frame, weier);
     Waiting waiting;
     waiting.count = 0u;
     int motion = 0;
@@ -316,6 +318,8 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
                 reprojected_colour[pixel] =
                     (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
             }
+        if (correction && kept != 0u)
+            catch_up(weier, &steps, correction, kept, x0, y0, colour, width);
         collect_samples(&p, kept, inverse_depth, &waiting);
         for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
             fill(&p, support_image, first_lane(lanes), &out);

@@ -115,6 +115,7 @@ MACULA_ALWAYS_INLINE float16 four_texels(global const float4* image, const int* 
 /* Indices of texels, lane by lane, for where they are scattered. */
 typedef struct Lanes {
     int upper_left[16], upper_right[16], lower_left[16], lower_right[16], nearest[16];
+    int between[16]; /* not 0 where the place is no texel's middle */
 } Lanes;
 
 MACULA_ALWAYS_INLINE void put_lanes(const Texels* texels, Lanes* t) {
@@ -123,6 +124,7 @@ MACULA_ALWAYS_INLINE void put_lanes(const Texels* texels, Lanes* t) {
     vstore16(texels->lower_left, 0, t->lower_left);
     vstore16(texels->lower_right, 0, t->lower_right);
     vstore16(texels->nearest, 0, t->nearest);
+    vstore16((texels->to_x != 0.0f) | (texels->to_y != 0.0f), 0, t->between);
 }
 
 /* What the rows of a packet share. */

@@ -122,24 +122,10 @@ static inline void write_ray(global const FrameParams* frame, global const Weier
     const uint key = random_key(y * width + x, frame->frame, frame->seed);
     const uint grid = weier->jitter != 0u ? 0u : frame->sample_grid;
     float dx, dy;
-    subpixel_offset(key, sample, grid, &dx, &dy);
+    sample_offset(frame, key, sample, grid, &dx, &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
     store_camera_ray(frame, rays, slot, direction, MACULA_BACKGROUND_DEPTH);
-}
-
-/* Fills the list's last ray block with inactive rays. */
-static inline void pad_list(global RayBlock* rays, global uint* pixels, uint total) {
-    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot) {
-        global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
-        const uint lane = slot % MACULA_RAY_BLOCK;
-        block->origin_x[lane] = block->origin_y[lane] = block->origin_z[lane] = 0.0f;
-        block->t_min[lane] = 0.0f;
-        block->direction_x[lane] = block->direction_y[lane] = 0.0f;
-        block->direction_z[lane] = 1.0f;
-        block->t_max[lane] = -1.0f;
-        pixels[slot] = MACULA_NO_PIXEL;
-    }
 }
 
 /* One work-item a packet: its rays go to where the prefix sum of the counts puts them. */

@@ -142,14 +142,6 @@ static inline void add_ray(const List* list, global const FrameParams* frame, ui
     list->spreads[slot] = spread;
 }
 
-/* Fills the list's last ray block with inactive rays. */
-static inline void pad_list(const List* list, global const FrameParams* frame, uint total) {
-    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot) {
-        add_ray(list, frame, slot, MACULA_NO_PIXEL, 0.0f, 0.0f, 1.0f);
-        list->rays[slot / MACULA_RAY_BLOCK].t_max[slot % MACULA_RAY_BLOCK] = -1.0f;
-    }
-}
-
 /* One work-item a packet. places: the pixel's index for the disk, beyond them the texel's. A grid
  * of samples is one in the buffer, hence warped in the image (section 4.1.3). */
 kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
@@ -166,7 +158,9 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
     const List list = {rays, places, spreads};
     if (packet == 0u) {
         const uint total = min(*sum, params->capacity);
-        pad_list(&list, frame, total);
+        pad_list(rays, places, total);
+        for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot)
+            spreads[slot] = 1.0f;
         *ray_count = (total + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK * MACULA_RAY_BLOCK;
         ray_totals[ray_class] += total;
     }
@@ -181,8 +175,8 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
         const uint place =
             disk ? row * across + column : pixels + row * params->pitch + column + 1u;
         float dx, dy, x, y, spread = 1.0f;
-        subpixel_offset(random_key(place, frame->frame, frame->seed), sample, frame->sample_grid,
-                        &dx, &dy);
+        sample_offset(frame, random_key(place, frame->frame, frame->seed), sample,
+                      frame->sample_grid, &dx, &dy);
         x = (float)column + dx;
         y = (float)row + dy;
         if (!disk) {
@@ -192,6 +186,8 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
             /* The side of a square of the texel's area. */
             spread = m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f);
         }
+        if (params->thesis_lod != 0u)
+            spread = log_polar_thesis_spread(params, disk ? 0.0f : (float)column + dx);
         add_ray(&list, frame, slot, place, x, y, spread);
     }
 }

@@ -54,6 +54,14 @@ MACULA_ALWAYS_INLINE void subpixel_offset(uint key, uint sample, uint grid, floa
     }
 }
 
+/* The same for a sample of a frame, whose jitter may put it beyond the pixel's edge. */
+MACULA_ALWAYS_INLINE void sample_offset(MACULA_GLOBAL const FrameParams* frame, uint key,
+                                        uint sample, uint grid, float* x, float* y) {
+    subpixel_offset(key, sample, grid, x, y);
+    *x += frame->jitter[0];
+    *y += frame->jitter[1];
+}
+
 /* Direction through the image point (x, y) in pixels; its component along `forward` is 1. */
 MACULA_ALWAYS_INLINE float3 camera_direction(MACULA_GLOBAL const Camera* camera, uint width,
                                              uint height, float x, float y) {

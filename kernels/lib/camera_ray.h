@@ -33,8 +33,8 @@ static inline void generate_camera_ray(global const FrameParams* frame, uint wid
     const bool inside = x < width && y < height;
     const uint pixel = y * width + x;
     float dx, dy;
-    subpixel_offset(random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid, &dx,
-                    &dy);
+    sample_offset(frame, random_key(pixel, frame->frame, frame->seed), sample, frame->sample_grid,
+                  &dx, &dy);
     const float3 direction =
         camera_direction(&frame->camera, width, height, (float)x + dx, (float)y + dy);
     store_camera_ray(frame, rays, slot, direction, inside ? MACULA_BACKGROUND_DEPTH : -1.0f);
@@ -42,6 +42,20 @@ static inline void generate_camera_ray(global const FrameParams* frame, uint wid
     if (slot == 0u) {
         *ray_count = (uint)get_global_size(0);
         *total += width * height;
+    }
+}
+
+/* Fills the list's last ray block with inactive rays. */
+static inline void pad_list(global RayBlock* rays, global uint* pixels, uint total) {
+    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot) {
+        global RayBlock* block = rays + slot / MACULA_RAY_BLOCK;
+        const uint lane = slot % MACULA_RAY_BLOCK;
+        block->origin_x[lane] = block->origin_y[lane] = block->origin_z[lane] = 0.0f;
+        block->t_min[lane] = 0.0f;
+        block->direction_x[lane] = block->direction_y[lane] = 0.0f;
+        block->direction_z[lane] = 1.0f;
+        block->t_max[lane] = -1.0f;
+        pixels[slot] = MACULA_NO_PIXEL;
     }
 }
 

@@ -61,8 +61,8 @@ static inline float8 least_lanes16(const float16 v[8]) {
 #define MACULA_FETCH_TO_WRITE(p, offset)
 #endif
 
-/* Lane lane[i] of v in lane i, and the lanes of v that `keep` marks side by side from lane 0 on;
- * what follows them is of no meaning. Instructions of AVX-512, which compilers do not find by
+/* Lane lane[i] mod 8 of v in lane i, and the lanes of v that `keep` marks side by side from lane 0
+ * on; what follows them is of no meaning. Instructions of AVX-512, which compilers do not find by
  * themselves; elsewhere a store of each lane. */
 #if defined(__AVX512VL__) && defined(__AVX512DQ__)
 typedef int Native8 __attribute__((vector_size(32)));
@@ -85,7 +85,7 @@ static inline int8 permuted8(int8 v, int8 lane) {
     vstore8(v, 0, from);
     vstore8(lane, 0, of);
     for (uint i = 0u; i < 8u; ++i)
-        to[i] = from[of[i]];
+        to[i] = from[of[i] & 7];
     return vload8(0, to);
 }
 

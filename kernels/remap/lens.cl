@@ -28,12 +28,10 @@ static inline float4 seen_through(global const float4* image, uint width, uint h
                     (float)(iy & 255) * 0x1p-8f);
 }
 
-/* One work-item a slot. */
-kernel void prewarp(global const FrameParams* restrict frame,
-                    global const LensParams* restrict lens, global const float4* restrict colour,
-                    global float4* restrict warped) {
+/* One work-item a slot of the picture. */
+kernel void prewarp(uint width, uint height, global const LensParams* restrict lens,
+                    global const float4* restrict colour, global float4* restrict warped) {
     const uint slot = (uint)get_global_id(0);
-    const uint width = frame->width, height = frame->height;
     uint column, row;
     pixel_of_slot(slot, width, &column, &row);
     if (column >= width || row >= height)

@@ -1,6 +1,4 @@
 // `macula compare` as a program: what it prints, which frames it pairs, what it refuses.
-#include <cstdio>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 #include "tests/support/picture_files.hpp"
 #include "tests/support/pictures.hpp"
 #include "tests/support/png_bytes.hpp"
+#include "tests/support/program.hpp"
 
 namespace macula {
 namespace {
@@ -22,30 +21,17 @@ using testing::HasSubstr;
 
 class CompareProgram : public test::PictureFiles {
   protected:
-    struct Ended {
-        int code;
-        std::string text; // standard output and errors
-    };
-
-    Ended compare(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && '" MACULA_PROGRAM "' compare " + arguments + " 2>&1";
-        FILE* pipe = popen(command.c_str(), "r");
-        Ended ended{-1, {}};
-        char buffer[4096];
-        while (pipe != nullptr && fgets(buffer, sizeof buffer, pipe) != nullptr)
-            ended.text += buffer;
-        ended.code = pipe != nullptr ? WEXITSTATUS(pclose(pipe)) : -1;
-        return ended;
+    test::Ended compare(const std::string& arguments) const {
+        return test::run_macula("compare " + arguments, folder_.string());
     }
     json document(const std::string& arguments) const {
-        const Ended ended = compare("--json " + arguments);
+        const test::Ended ended = compare("--json " + arguments);
         EXPECT_EQ(ended.code, 0) << ended.text;
         return json::parse(ended.text);
     }
     // What it says when it fails.
     std::string refusal(const std::string& arguments) const {
-        const Ended ended = compare(arguments);
+        const test::Ended ended = compare(arguments);
         EXPECT_EQ(ended.code, 1) << ended.text;
         return ended.text;
     }
@@ -79,7 +65,7 @@ TEST_F(CompareProgram, IdenticalPicturesScoreZeroOneAndInfinity) {
 TEST_F(CompareProgram, SeveralTestsGetALineEach) {
     write_png("a.png", plain(20, 20, 0, 0, 0));
     write_png("b.png", plain(20, 20, 1, 1, 1));
-    const Ended ended = compare("a.png a.png b.png --json --heatmap maps/heat.png");
+    const test::Ended ended = compare("a.png a.png b.png --json --heatmap maps/heat.png");
     ASSERT_EQ(ended.code, 0) << ended.text;
     const std::size_t end = ended.text.find('\n');
     const json first = json::parse(ended.text.substr(0, end)),

@@ -39,21 +39,17 @@ template <class Value>
 std::vector<Float4> warped(const compute::Device& on, const LensDistortion& distortion,
                            Value value) {
     kernel::Library library;
-    shared::FrameParams frame{};
-    frame.width = kWidth;
-    frame.height = kHeight;
     std::vector<Float4> image;
     for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
         const float v = value(float(i % kWidth), float(i / kWidth));
         image.push_back({v, v, v, 1.0f});
     }
     const shared::LensParams lens = stage::make_lens(distortion, kView, kWidth, kHeight);
-    const compute::Buffer frames = on.upload(std::span(&frame, 1), "frame"),
-                          lenses = on.upload(std::span(&lens, 1), "lens"),
+    const compute::Buffer lenses = on.upload(std::span(&lens, 1), "lens"),
                           colour = on.upload(std::span(image), "colour"),
                           out = on.allocate_array<Float4>(image.size(), "warped");
     library.kernel(kernel::VariantKey("remap/lens"), "prewarp", on)
-        .set(frames, lenses, colour, out)
+        .set(kWidth, kHeight, lenses, colour, out)
         .launch("warp", {shared::slot_count(kWidth, kHeight)}, {64});
     const auto found = out.map_read<Float4>();
     return {found.begin(), found.end()};

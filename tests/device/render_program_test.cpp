@@ -1,5 +1,4 @@
 // `macula render` as a program: what a scene file asks for, what the command line overrides.
-#include <cstdio>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -7,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/program.hpp"
 #include "tests/support/scene_folder.hpp"
 
 namespace macula::scene {
@@ -16,28 +16,15 @@ using testing::HasSubstr;
 
 class RenderProgram : public SceneFolder {
   protected:
-    struct Ended {
-        int code;
-        std::string text; // standard output and errors
-    };
-
     // Runs `macula render s.toml ARGUMENTS`.
-    Ended render(const std::string& arguments) const {
-        const std::string command = "'" MACULA_PROGRAM "' render '" + path("s.toml") +
-                                    "' --format png --out '" + path("out") + "' " + arguments +
-                                    " 2>&1";
-        FILE* pipe = popen(command.c_str(), "r");
-        Ended ended{-1, {}};
-        char buffer[4096];
-        while (pipe != nullptr && fgets(buffer, sizeof buffer, pipe) != nullptr)
-            ended.text += buffer;
-        ended.code = pipe != nullptr ? WEXITSTATUS(pclose(pipe)) : -1;
-        return ended;
+    test::Ended render(const std::string& arguments) const {
+        return test::run_macula("render '" + path("s.toml") + "' --format png --out '" +
+                                path("out") + "' " + arguments);
     }
 
     // The JSON line of the last frame.
     nlohmann::json frame_of(const std::string& arguments) const {
-        const Ended ended = render("--json " + arguments);
+        const test::Ended ended = render("--json " + arguments);
         EXPECT_EQ(ended.code, 0) << ended.text;
         const std::size_t line = ended.text.rfind('{', ended.text.rfind("\"frame\""));
         return nlohmann::json::parse(ended.text.substr(line == std::string::npos ? 0 : line));
