@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct FoveationOptions {
     std::uint32_t frames = 24;            // measured, 1..100000
     std::uint32_t segments = 6;           // consecutive stretches of the path, 1..frames
     std::uint32_t warm_up = 3;            // frames before each segment, not measured, 1..1000
-    std::uint32_t light_samples = 8, ambient_occlusion_samples = 16; // the paper's
-    std::filesystem::path bvh_cache;                                 // folder; empty: none
+    std::optional<std::uint32_t> light_samples;   // as render::Options has it: the paper's
+    std::uint32_t ambient_occlusion_samples = 16; // the paper's
+    std::filesystem::path bvh_cache;              // folder; empty: none
     std::filesystem::path resume; // rows that are there already and new ones; empty: none
 };
 

@@ -61,7 +61,7 @@ FoveationRow parse_row(const std::string& line) {
         read("scene", r.scene);
         const auto lights = frame::parse_light_mode(json.at("lights").get<std::string>());
         if (!lights)
-            throw std::invalid_argument("\"lights\" is none of point, area and ao");
+            throw std::invalid_argument("\"lights\" is none of point, area, soft and ao");
         r.lights = *lights;
         read("frc", r.frc);
         read("triangles", r.triangles);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ struct QualityOptions {
     std::uint32_t segments = 3;       // consecutive stretches of the path, 1..frames
     std::uint32_t warm_up = 8;        // frames before each that do not count, 1..1000
     std::uint32_t reference_spp = 36; // 1..65536
-    std::uint32_t light_samples = 8, ambient_occlusion_samples = 16, seed = 0;
+    std::optional<std::uint32_t> light_samples; // as render::Options has it
+    std::uint32_t ambient_occlusion_samples = 16, seed = 0;
     std::uint32_t pictures = 2;            // frames with pictures, for each case
     std::filesystem::path bvh_cache;       // folder; empty: none
     std::filesystem::path reference_cache; // folder; empty: none

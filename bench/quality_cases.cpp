@@ -98,6 +98,7 @@ QualityGroup::QualityGroup(const QualityFlight& flight, const QualityOptions& op
 report::QualityCase QualityGroup::blank(const QualityRequest& request) const {
     report::QualityCase result = flight_.blank();
     result.lights = frame::name(lights_);
+    result.light_samples = options_.light_samples.value_or(frame::default_light_samples(lights_));
     result.method = request.method;
     result.name = request.name();
     report::Parameters& p = result.parameters;

@@ -164,7 +164,6 @@ report::QualityCase QualityFlight::blank() const {
     blank.warm_up = options_.warm_up;
     blank.reference_spp = options_.reference_spp;
     blank.seed = options_.seed;
-    blank.light_samples = options_.light_samples;
     blank.ambient_occlusion_samples = options_.ambient_occlusion_samples;
     blank.display = display_.name;
     blank.gaze = gaze_name_;

@@ -76,7 +76,8 @@ References::References(const QualityFlight& flight, const QualityOptions& option
     content_ = fmt::format(
         "macula reference 1\nscene {}\nkernels {:016x}\nlights {} {} {}\nsize {} {}\n"
         "tangents {:a} {:a} {:a} {:a}\nsamples {}\nseed {}\n",
-        scene_hash(flight.scene()), hash_of_kernels(), frame::name(lights), options.light_samples,
+        scene_hash(flight.scene()), hash_of_kernels(), frame::name(lights),
+        options.light_samples.value_or(frame::default_light_samples(lights)),
         options.ambient_occlusion_samples, flight.display().width, flight.display().height, t.left,
         t.right, t.up, t.down, options.reference_spp, options.seed);
 }

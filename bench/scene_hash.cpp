@@ -66,7 +66,7 @@ void add(Digest& digest, const scene::Texture& texture) {
 
 void add(Digest& digest, const scene::Light& light) {
     digest.add(light.kind, light.position, light.direction, light.colour, light.radius,
-               light.edge_u, light.edge_v, light.attenuation_distance);
+               light.edge_u, light.edge_v, light.attenuation_distance, light.angle);
 }
 
 } // namespace

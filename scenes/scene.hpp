@@ -85,7 +85,8 @@ struct Instance {
 enum class LightKind : std::uint8_t { point, directional, spherical, rectangle };
 
 // `--lights point` renders every area light as a point light of equal power at its centre;
-// `--lights area` renders a point light as a sphere of its radius where that is > 0.
+// `--lights area` renders a point light as a sphere of its radius where that is > 0;
+// `--lights soft` does so, too, and renders a directional light as wide as its angle.
 struct Light {
     LightKind kind = LightKind::point;
     glm::vec3 position{0.0f};               // centre
@@ -93,6 +94,7 @@ struct Light {
     glm::vec3 colour{1.0f};                 // point/spherical: intensity (W/sr); directional:
                                             // irradiance; rectangle: intensity along its normal
     float radius = 0.0f;                    // spherical, and point when rendered as an area
+    float angle = 0.27f;                    // directional: angular radius in degrees, the sun's
     glm::vec3 edge_u{0.0f}, edge_v{0.0f};   // rectangle: full edges; emits along cross(u, v)
     float attenuation_distance = 0.0f;      // 0: none (constant, as the paper's Phong); else the
                                             // distance at which inverse-square gives `colour`

@@ -85,6 +85,7 @@ Light read_light(const TomlTable& table) {
         if (!(glm::length(light.direction) > 0.0f))
             table.fail("direction", "it has no length");
         light.direction = glm::normalize(light.direction);
+        light.angle = table.number("angle", 0.0, 80.0).value_or(light.angle);
     } else {
         light.position = table.required_vec3("position");
         light.radius = table.number("radius", 0.0, 1e18).value_or(0.0f);

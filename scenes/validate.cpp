@@ -131,6 +131,7 @@ void validate_lights(Scene& scene) {
         bool changed = bound(light.colour, kMaxRadiance);
         changed = bound(light.radius, 0.0f, kMaxCoordinate, 0.0f) || changed;
         changed = bound(light.attenuation_distance, 0.0f, kMaxCoordinate, 0.0f) || changed;
+        changed = bound(light.angle, 0.0f, 80.0f, 0.0f) || changed;
         if (changed)
             scene.warnings.push_back(where + ": values out of range are clamped");
         const float length = glm::length(light.direction);

@@ -42,7 +42,7 @@ void add_options(CLI::App& command, Options& options) {
                        "MACULA_SCENE_PATH and ../shared/scenes follow");
     command
         .add_option("--lights", options.lights,
-                    "point, area, ao, separated by commas (default: all three)")
+                    "point, area, soft, ao, separated by commas (default: all but soft)")
         ->delimiter(',');
     command.add_option("--frames", f.frames, "Measured frames")->capture_default_str();
     command.add_option("--segments", f.segments, "Stretches of the path that the frames lie in")

@@ -16,7 +16,7 @@ std::vector<frame::LightMode> parse_lights(const std::vector<std::string>& names
         const auto mode = frame::parse_light_mode(name);
         if (!mode)
             throw std::invalid_argument(
-                fmt::format("--lights \"{}\": point, area or ao was expected", name));
+                fmt::format("--lights \"{}\": point, area, soft or ao was expected", name));
         modes.push_back(*mode);
     }
     return modes;

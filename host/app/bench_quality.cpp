@@ -45,7 +45,7 @@ void add_what(CLI::App& command, Options& options) {
                        "MACULA_SCENE_PATH and ../shared/scenes follow");
     command
         .add_option("--lights", options.lights,
-                    "point, area, ao, separated by commas (default: area)")
+                    "point, area, soft, ao, separated by commas (default: area)")
         ->delimiter(',');
     command
         .add_option("--methods", q.methods,

@@ -31,13 +31,17 @@ void on_interrupt(int /*signal*/) {
 constexpr int kInterrupted = 130; // as shells report SIGINT
 
 output::Metadata metadata_of(const app::RenderOptions& options, const compute::Device& device) {
+    const frame::LightMode lights =
+        frame::parse_light_mode(options.lights).value_or(frame::LightMode::point);
+    const std::uint32_t light_samples =
+        options.light_samples.value_or(frame::default_light_samples(lights));
     return {{"version", MACULA_VERSION},
             {"commit", MACULA_COMMIT},
             {"scene", options.scene},
             {"method", options.method},
             {"lights", options.lights},
             {"samples_per_pixel", std::to_string(options.samples_per_pixel)},
-            {"light_samples", std::to_string(options.light_samples)},
+            {"light_samples", std::to_string(light_samples)},
             {"ambient_occlusion_samples", std::to_string(options.ambient_occlusion_samples)},
             {"seed", std::to_string(options.seed)},
             {"device", device.facts().name},

@@ -102,7 +102,7 @@ render::Options engine_options(const RenderOptions& options) {
     render::Options engine;
     const auto lights = frame::parse_light_mode(options.lights);
     if (!lights)
-        refuse("--lights", options.lights, "point, area or ao was expected");
+        refuse("--lights", options.lights, "point, area, soft or ao was expected");
     engine.lights = *lights;
     engine.method = options.method;
     engine.light_samples = options.light_samples;
@@ -110,6 +110,8 @@ render::Options engine_options(const RenderOptions& options) {
     engine.ambient_occlusion_radius = options.ambient_occlusion_radius;
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
+    engine.depth = options.depth;
+    engine.lod_bias = options.lod_bias;
     engine.variant = options.variant;
     engine.lanes = options.lanes;
     engine.weier = engine_options(options.weier);
@@ -134,12 +136,16 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--path", path, "scene, still, or a scene file whose camera path to fly")
         ->capture_default_str();
     command.add_option("--frames", frames, "A:B, frames A to B - 1 of the path (default 0:1)");
-    command.add_option("--lights", lights, "point, area or ao")->capture_default_str();
-    command.add_option("--light-samples", light_samples, "Rays for each area light")
-        ->capture_default_str();
+    command.add_option("--lights", lights, "point, area, soft or ao")->capture_default_str();
+    command.add_option("--light-samples", light_samples,
+                       "Rays for each area light (default: 8; of --lights soft: 3)");
     command.add_option("--ao-samples", ambient_occlusion_samples, "Rays of ambient occlusion")
         ->capture_default_str();
     command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
+        ->capture_default_str();
+    command.add_option("--depth", depth, "Levels of reflected and refracted rays")
+        ->capture_default_str();
+    command.add_option("--lod-bias", lod_bias, "Levels that every texture lookup goes up")
         ->capture_default_str();
     command.add_option("--seed", seed, "Of all random numbers")->capture_default_str();
     command.add_option("--scene-seed", scene_seed, "Of a built-in scene")->capture_default_str();

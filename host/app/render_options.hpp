@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,11 @@ struct RenderOptions : ViewOptions {
     std::string scene, device, method = "full", camera, path = "scene", frames, lights = "point",
                                variant;
     std::uint32_t lanes = 0;
-    std::uint32_t samples_per_pixel = 1, light_samples = 8, ambient_occlusion_samples = 16,
-                  seed = 0;
+    std::uint32_t samples_per_pixel = 1, ambient_occlusion_samples = 16, seed = 0, depth = 1;
+    std::optional<std::uint32_t> light_samples;
     std::uint32_t scene_size = 0;
     std::uint64_t scene_seed = 1;
-    float ambient_occlusion_radius = 0.0f, exposure = 1.0f;
+    float ambient_occlusion_radius = 0.0f, exposure = 1.0f, lod_bias = 0.0f;
     WeierOptions weier;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;

@@ -119,6 +119,8 @@ ordered_json lights_json(const scene::Scene& s) {
         else
             light["position"] = to_json(l.position);
         light["radius"] = l.radius;
+        if (l.kind == scene::LightKind::directional)
+            light["angle"] = l.angle;
         list.push_back(light);
     }
     return list;

@@ -140,6 +140,9 @@ void check(const FrameSettings& s) {
     check_range("the width", s.width, 1, 16384);
     check_range("the height", s.height, 1, 16384);
     check_range("samples per pixel", s.samples_per_pixel, 1, 65536);
+    if (!(std::fabs(s.lod_bias) <= 16.0f))
+        throw std::invalid_argument(
+            fmt::format("the bias of texture levels must be -16 to 16, not {}", s.lod_bias));
     check_range("ambient occlusion samples", s.ambient_occlusion_samples, 0, 4096);
     if (s.ambient_occlusion_samples > 0 &&
         !(s.ambient_occlusion_radius > 0.0f && s.ambient_occlusion_radius < 1e18f))
@@ -169,7 +172,7 @@ shared::FrameParams make_params(const FrameSettings& settings, std::uint32_t fra
     // Each of the pixel's samples stands for its share of the pixel's area.
     p.pixel_spread = (camera.tan_left + camera.tan_right) / static_cast<float>(settings.width) /
                      std::sqrt(static_cast<float>(settings.samples_per_pixel));
-    p.pixel_spread *= settings.sharpening;
+    p.lod_bias = settings.lod_bias + shared::m_log2(settings.sharpening);
     const Jitter jitter = jitter_of(frame, settings.jitter_phases);
     p.jitter[0] = jitter.x;
     p.jitter[1] = jitter.y;

@@ -39,6 +39,7 @@ struct FrameSettings {
     float background[3] = {0.0f, 0.0f, 0.0f};    // radiance
     std::uint32_t jitter_phases = 0;             // frames until the jitter repeats; 0: none
     float sharpening = 1.0f; // textures are filtered for pixels this much narrower, at most 1
+    float lod_bias = 0.0f;   // levels that every texture lookup goes up, -16..16
 };
 
 // Throws std::invalid_argument that names the setting out of range.

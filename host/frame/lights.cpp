@@ -25,7 +25,7 @@ void store_unit(float3 v, float (&out)[3]) {
 }
 
 std::uint32_t kind_of(const scene::Light& light, LightMode mode) {
-    const bool area = mode == LightMode::area;
+    const bool area = mode != LightMode::point;
     switch (light.kind) {
     case scene::LightKind::directional:
         return MACULA_LIGHT_DIRECTIONAL;
@@ -38,14 +38,24 @@ std::uint32_t kind_of(const scene::Light& light, LightMode mode) {
     throw std::invalid_argument("unknown kind of light");
 }
 
+// 1 - cos of an angle in degrees, without cancellation.
+float height_of_cone(float degrees) {
+    float cosine = 1.0f;
+    const float sine = shared::m_sin_cos_pi(degrees / 360.0f, &cosine);
+    return 2.0f * (sine * sine);
+}
+
 shared::Light make_light(const scene::Light& light, LightMode mode, std::uint32_t samples) {
     shared::Light out{};
     out.kind = kind_of(light, mode);
-    const bool is_area = out.kind == MACULA_LIGHT_SPHERE || out.kind == MACULA_LIGHT_RECTANGLE;
+    const bool soft = mode == LightMode::soft;
+    const bool wide = soft && out.kind == MACULA_LIGHT_DIRECTIONAL && light.angle > 0.0f;
+    const bool is_area =
+        wide || out.kind == MACULA_LIGHT_SPHERE || out.kind == MACULA_LIGHT_RECTANGLE;
     store(light.position, out.position);
     store(light.colour, out.colour);
     out.samples = is_area ? samples : 1;
-    out.columns = shared::strata_columns(out.samples);
+    out.columns = soft && is_area ? 0 : shared::strata_columns(out.samples);
     out.reference_distance_squared = light.attenuation_distance * light.attenuation_distance;
     const float3 u = {light.edge_u.x, light.edge_u.y, light.edge_u.z};
     const float3 v = {light.edge_v.x, light.edge_v.y, light.edge_v.z};
@@ -54,7 +64,9 @@ shared::Light make_light(const scene::Light& light, LightMode mode, std::uint32_
         store(light.edge_v, out.edge_v);
         store_unit(cross3(u, v), out.direction);
     } else {
-        out.radius = light.radius;
+        const bool directional = light.kind == scene::LightKind::directional;
+        const float angle = wide ? light.angle : 0.0f;
+        out.radius = directional ? height_of_cone(angle) : light.radius;
         store_unit({light.direction.x, light.direction.y, light.direction.z}, out.direction);
     }
     return out;
@@ -68,6 +80,8 @@ const char* name(LightMode mode) {
         return "point";
     case LightMode::area:
         return "area";
+    case LightMode::soft:
+        return "soft";
     case LightMode::ambient_occlusion:
         return "ao";
     }
@@ -75,10 +89,15 @@ const char* name(LightMode mode) {
 }
 
 std::optional<LightMode> parse_light_mode(std::string_view text) {
-    for (const LightMode mode : {LightMode::point, LightMode::area, LightMode::ambient_occlusion})
+    for (const LightMode mode :
+         {LightMode::point, LightMode::area, LightMode::soft, LightMode::ambient_occlusion})
         if (text == name(mode))
             return mode;
     return std::nullopt;
+}
+
+std::uint32_t default_light_samples(LightMode mode) {
+    return mode == LightMode::soft ? 3 : 8;
 }
 
 std::vector<shared::Light> make_lights(const scene::Scene& scene, LightMode mode,

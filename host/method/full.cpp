@@ -16,13 +16,14 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options) {
         stage::primary_rays(kit),
         stage::trace_primary_rays(kit),
         stage::resolve_surface(kit),
+        stage::place_surfaces(kit),
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
         stage::shade(kit, !occlusion, occlusion),
-        stage::average_samples(kit, "surface colour", "colour"),
     };
+    const std::string colour = add_secondary_rays(stages, kit, options);
+    stages.push_back(stage::average_samples(kit, colour, "colour"));
     for (frame::Stage& image : surface_images(kit, options))
         stages.push_back(std::move(image));
-    stages.push_back(stage::place_surfaces(kit));
     graph.for_each_sample(std::move(stages));
     return graph;
 }

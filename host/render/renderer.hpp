@@ -35,24 +35,27 @@ struct Options {
     std::uint32_t width = 640, height = 480; // pixels, each 1..16384
     std::string method = "full";             // method::methods()
     frame::LightMode lights = frame::LightMode::point;
-    std::uint32_t light_samples = 8;              // rays for each area light, 1..4096
+    // Rays for each area light, 1..4096; without one frame::default_light_samples().
+    std::optional<std::uint32_t> light_samples;
     std::uint32_t ambient_occlusion_samples = 16; // 1..4096
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
+    float lod_bias = 0.0f; // levels that every texture lookup goes up, -16..16
     std::uint32_t seed = 0;
+    std::uint32_t depth = 1; // levels of reflected and refracted rays, 0..16
     std::uint32_t lanes = 0; // ray slots to a work-item of the shading kernels: 1, 16; 0: by device
-    std::string variant; // a traversal variant for all rays; empty: chosen for device and rays
+    std::string variant;     // a traversal variant for all rays; empty: chosen for device and rays
     // Of the display; without them the camera's vertical field of view and square pixels.
     std::optional<frame::Tangents> tangents;
     // Warps the picture for the display's lens; needs `tangents`.
     std::optional<stage::LensDistortion> lens;
     // Images wanted besides "colour": names of image_formats().
     std::vector<std::string> images;
-    stage::WeierOptions weier;       // of method "weier"
-    float lowres_scale = 0.46f;      // of method "lowres": part of the pixels along each axis, 0..1
+    stage::WeierOptions weier;  // of method "weier"
+    float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar; // of method "logpolar"
     method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
-    frame::GeometryOptions geometry; // unless the scene is on the device already
+    frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };
 

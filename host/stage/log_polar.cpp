@@ -41,6 +41,18 @@ frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
 
 } // namespace
 
+const char* name(LodRule rule) {
+    return rule == LodRule::thesis ? "thesis" : "footprint";
+}
+
+LodRule parse_lod_rule(std::string_view text) {
+    for (const LodRule rule : {LodRule::footprint, LodRule::thesis})
+        if (text == name(rule))
+            return rule;
+    throw std::invalid_argument("--lod \"" + std::string(text) +
+                                "\": footprint or thesis was expected");
+}
+
 shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width,
                                    std::uint32_t height, std::uint32_t picture_width,
                                    std::uint32_t picture_height) {
@@ -53,6 +65,7 @@ shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width
     p.disk = o.disk;
     p.disk_tangent = std::tan(o.disk_degrees * std::numbers::pi_v<float> / 180.0f);
     p.fade = o.fade;
+    p.thesis_lod = o.lod == LodRule::thesis ? 1 : 0;
     p.pitch = p.width + 2;
     p.capacity = shared::slot_count(width, height);
     return p;

@@ -4,11 +4,22 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 #include "host/stage/kit.hpp"
 #include "shared/log_polar.h"
 
 namespace macula::stage {
+
+// How far textures are filtered for the samples of the buffer.
+enum class LodRule : std::uint8_t {
+    footprint, // for the width of the sample's texel in the image
+    thesis,    // for a pixel, and 0.3 + phi levels more (equations 4.2 and 4.3)
+};
+// "footprint", "thesis".
+const char* name(LodRule rule);
+// Throws std::invalid_argument that lists the names.
+LodRule parse_lod_rule(std::string_view text);
 
 // Defaults are the thesis's (sections 4.2.1 and 4.2.3).
 struct LogPolarOptions {
@@ -19,6 +30,7 @@ struct LogPolarOptions {
     float disk = 0.15f;
     float disk_degrees = 0.0f; // above 0: the disk's radius as an angle instead, below 80
     float fade = 0.15f;        // part of the radius in which it passes into the buffer, 0..1
+    LodRule lod = LodRule::footprint;
 };
 
 // For width x height pixels to be rendered, of which a picture of another size may be made: 0: the

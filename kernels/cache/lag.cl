@@ -1,10 +1,12 @@
 /* How far the history lags behind what the view now shows: highlights and mirror images move over
  * surfaces, which reprojection cannot know. The support samples tell, each frame and everywhere. */
 #include "lib/camera.h"
+#include "cache/likeness.h"
 #include "lib/reprojection.h"
 
-/* lag[i]: the fresh support sample i minus its reprojected history; 0 where there is none, and
- * where the view stands still upon it. One work-item a support sample. */
+/* lag[i]: the fresh support sample i minus its reprojected history; w: what that looks like
+ * (look_of). 0 where there is none, and where the view stands still upon it. One work-item a
+ * support sample. */
 kernel void
 measure_lag(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict columns, global const float* restrict rows,
@@ -32,17 +34,20 @@ measure_lag(global const FrameParams* restrict frame, global const WeierParams* 
     const float4 past = bilinear4(past_colour, frame->width, frame->height, &f);
     const float4 difference = support_image[index] - past;
     if (is_finite3(difference.xyz))
-        lag[index] = (float4)(difference.xyz, 0.0f);
+        lag[index] = (float4)(difference.xyz, look_of(past.y));
 }
 
 /* Less than this of either sign is none, and far from denormal. */
 #define LEAST_LAG 0x1p-20f
 /* What nobody would see, and would cost each pixel time. */
 #define LEAST_CORRECTION 0x1p-10f
+/* Of the eight neighbours, those that must show the same surface for a lag to be believed. */
+#define LEAST_PEERS 3u
 
-/* correction[i]: the mean lag of sample i and its four neighbours, where all of them agree on its
- * sign, in each colour: what only some of them show is detail that the history lost, or noise, and
- * what only some colours show would tint it. One work-item a support sample. */
+/* correction[i]: the mean lag of sample i and those of its eight neighbours that look alike, where
+ * all of them agree on its sign, in each colour: what only some of them show is detail that the
+ * history lost, or noise, and what only some colours show would tint it. w: as that of the lag. One
+ * work-item a support sample. */
 kernel void agree_on_lag(global const WeierParams* restrict weier,
                          global const float4* restrict lag, global float4* restrict correction) {
     const uint index = (uint)get_global_id(0);
@@ -51,18 +56,24 @@ kernel void agree_on_lag(global const WeierParams* restrict weier,
         return;
     const int x = (int)(index % across), y = (int)(index / across);
     const float4 here = lag[index];
-    const float4 left = lag[texel_index(x - 1, y, across, down)];
-    const float4 right = lag[texel_index(x + 1, y, across, down)];
-    const float4 above = lag[texel_index(x, y - 1, across, down)];
-    const float4 below = lag[texel_index(x, y + 1, across, down)];
     const float4 least = (float4)(LEAST_LAG);
-    const int4 more =
-        (here > least) & (left > least) & (right > least) & (above > least) & (below > least);
-    const int4 less =
-        (here < -least) & (left < -least) & (right < -least) & (above < -least) & (below < -least);
-    const float4 mean = (here + ((left + right) + (above + below))) * 0.2f;
+    int4 more = here > least, less = here < -least;
+    float4 sum = here;
+    uint peers = 0u;
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+            const float4 there = lag[texel_index(x + i, y + j, across, down)];
+            if ((i == 0 && j == 0) || !(likeness(here.w, there.w) > 0.0f))
+                continue;
+            more &= there > least;
+            less &= there < -least;
+            sum += there;
+            ++peers;
+        }
+    const float4 mean = sum * m_divide(1.0f, (float)(peers + 1u));
     const int4 agreed = more | less;
     const int4 seen = fabs(mean) > LEAST_CORRECTION;
-    const bool all = (agreed.x & agreed.y & agreed.z) != 0 && (seen.x | seen.y | seen.z) != 0;
-    correction[index] = all ? (float4)(mean.xyz, 0.0f) : (float4)(0.0f);
+    const bool all = here.w > 0.0f && peers >= LEAST_PEERS &&
+                     (agreed.x & agreed.y & agreed.z) != 0 && (seen.x | seen.y | seen.z) != 0;
+    correction[index] = (float4)(all ? mean.xyz : (float3)(0.0f), here.w);
 }

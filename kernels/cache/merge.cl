@@ -1,6 +1,7 @@
 /* Cache update and merge (Weier et al. 2016, section 3.4), together with the last step of the
  * reprojection: each pixel is touched once. A pixel takes its sample, blends it with its history,
  * keeps its history, or is filled from the support image. */
+#include "cache/catch_up.h"
 #include "cache/samples.h"
 #include "cache/texels.h"
 #include "lib/camera.h"
@@ -262,74 +263,6 @@ MACULA_ALWAYS_INLINE uint keep_histories(const Packet* p, const Mesh* mesh, cons
     return kept;
 }
 
-/* The way from a pixel to the next, counted in support samples; constant for a frame. */
-typedef struct Steps {
-    float x, y;
-} Steps;
-
-static inline Steps support_steps(global const FrameParams* frame,
-                                  global const WeierParams* weier) {
-    Steps s;
-    s.x = m_divide((float)(weier->support_width - 1u), (float)(frame->width - 1u));
-    s.y = m_divide((float)(weier->support_height - 1u), (float)(frame->height - 1u));
-    return s;
-}
-
-/* True where a support sample about the packet has a correction. */
-static inline bool lags(global const float4* correction, uint across, uint down, float16 x,
-                        float16 y) {
-    const int last_column = (int)x.s3 + 1, last_row = (int)y.sc + 1;
-    uint4 any = (uint4)(0u);
-    for (int row = (int)y.s0; row <= last_row; ++row)
-        for (int column = (int)x.s0; column <= last_column; ++column)
-            any |= as_uint4(correction[texel_index(column, row, across, down)]);
-    return (any.x | any.y | any.z) != 0u;
-}
-
-static inline float4 positive4(float4 v) {
-    return v > 0.0f ? v : (float4)(0.0f);
-}
-
-/* Adds what the history lags behind to the colours of the lanes `kept`. */
-static inline void catch_up(const Packet* p, const Steps* steps, global const float4* correction,
-                            uint kept, const Out* out) {
-    const uint across = p->weier->support_width, down = p->weier->support_height;
-    const float16 x = ((float)p->x0 + convert_float16(MACULA_LANES16 & 3)) * steps->x;
-    const float16 y = ((float)p->y0 + convert_float16(MACULA_LANES16 >> 2)) * steps->y;
-    if (!lags(correction, across, down, x, y))
-        return;
-    const int16 i = convert_int16(x), j = convert_int16(y);
-    const float16 to_x = x - convert_float16(i), to_y = y - convert_float16(j);
-    const int16 i0 = min(i, (int16)((int)across - 1)), i1 = min(i + 1, (int16)((int)across - 1));
-    const int16 j0 = min(j, (int16)((int)down - 1)) * (int)across;
-    const int16 j1 = min(j + 1, (int16)((int)down - 1)) * (int)across;
-    int a[16], b[16], c[16], d[16];
-    vstore16(j0 + i0, 0, a);
-    vstore16(j0 + i1, 0, b);
-    vstore16(j1 + i0, 0, c);
-    vstore16(j1 + i1, 0, d);
-    for (uint row = 0u; row < 4u; ++row) {
-        const uint lanes = kept >> 4u * row & 15u;
-        if (lanes == 0u)
-            continue;
-        const float16 behind = blend_texels(
-            four_texels(correction, a + 4u * row), four_texels(correction, b + 4u * row),
-            four_texels(correction, c + 4u * row), four_texels(correction, d + 4u * row),
-            spread_row(to_x, row), spread_row(to_y, row));
-        global float4* colours = out->colour + pixel_of_lane(p, 4u * row);
-        if (lanes == 15u) {
-            const float16 sum = vload16(0, (global const float*)colours) + behind;
-            vstore16(m_max(sum, (float16)(0.0f)), 0, (global float*)colours);
-            continue;
-        }
-        float4 added[4];
-        vstore16(behind, 0, (float*)added);
-        for (uint k = 0u; k < 4u; ++k)
-            if ((lanes >> k & 1u) != 0u)
-                colours[k] = positive4(colours[k] + added[k]);
-    }
-}
-
 /* One work-item MACULA_PACKETS packets of sixteen pixels, side by side: what they read lies in a
  * few rows. `reprojected_colour` and `correction` may be null, and the light buffers where the
  * method has none. */
@@ -386,7 +319,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
                     (kept >> lane & 1u) != 0u ? colour[pixel] : (float4)(0.0f);
             }
         if (correction && kept != 0u)
-            catch_up(&p, &steps, correction, kept, &out);
+            catch_up(weier, &steps, correction, kept, x0, y0, colour, width);
         collect_samples(&p, kept, inverse_depth, &waiting);
         for (uint lanes = p.inside & ~p.sampled & ~kept; lanes != 0u; lanes &= lanes - 1u)
             fill(&p, support_image, first_lane(lanes), &out);

@@ -1,8 +1,9 @@
-/* Sampling of light sources. Irradiance: rectangle and point lights by area, spheres by the solid
- * angle that they fill. */
+/* Sampling of light sources. Irradiance: rectangle and point lights by area, spheres and wide
+ * directional lights by the solid angle that they fill. */
 #ifndef MACULA_LIB_LIGHT_H
 #define MACULA_LIB_LIGHT_H
 
+#include "lib/blue_noise.h"
 #include "lib/camera.h"
 #include "lib/sampling.h"
 #include "shared/light.h"
@@ -77,17 +78,62 @@ MACULA_ALWAYS_INLINE void sample_sphere(MACULA_GLOBAL const Light* light, Real3 
     out->weight = outside ? weight : splat(0.0f);
 }
 
-/* Sample `index` of the light's strata, make_strata(columns, samples); `sample` counts the samples
- * of the pixel. */
-MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const Strata* strata,
-                                       Real3 from, Uint key, uint sample, uint dimension,
-                                       Uint index, LightSample* out) {
+/* A light as wide as the cone of height `light->radius` about its direction. Its mean cosine with a
+ * surface that faces it is 1 - height / 2, which the weight makes 1. */
+MACULA_ALWAYS_INLINE void sample_wide(MACULA_GLOBAL const Light* light, Real u, Real v,
+                                      LightSample* out) {
+    const float height = light->radius;
+    const Real3 axis = splat_vector(-vector_at(light->direction));
+    out->direction = cone_direction(axis, splat(height), u, v);
+    out->unit_direction = out->direction;
+    out->t_max = splat(MACULA_FAR_AWAY);
+    out->weight = splat(m_divide(2.0f, 2.0f - height));
+}
+
+/* Where a pixel's samples of one light come from. */
+typedef struct LightDraw {
+    Strata strata;  /* of stratified lights */
+    uint dimension; /* of random numbers */
+    uint first;     /* rays that the pixel's samples before this one sent to the light */
+    uint earlier;   /* and what the mask's earlier rounds of frames sent: of blue noise alone */
+    Uint key;       /* the pixel's random_key() */
+    Uint texel;     /* and its texel of the blue noise, where the light takes that */
+} LightDraw;
+
+/* For sample `sample` of the pixel. */
+MACULA_ALWAYS_INLINE LightDraw make_light_draw(MACULA_GLOBAL const Light* light,
+                                               MACULA_GLOBAL const FrameParams* frame, uint sample,
+                                               uint dimension, Uint key, Uint texel) {
+    const uint columns = light->columns > 0u ? light->columns : 1u;
+    const uint round = frame->frame / MACULA_NOISE_SLICES;
+    LightDraw draw;
+    draw.strata = make_strata(columns, light->samples);
+    draw.dimension = dimension;
+    draw.first = sample * light->samples;
+    draw.earlier = round * frame->samples_per_pixel * light->samples;
+    draw.key = key;
+    draw.texel = texel;
+    return draw;
+}
+
+MACULA_ALWAYS_INLINE void light_point(MACULA_GLOBAL const Light* light, const LightDraw* draw,
+                                      Uint index, Real* u, Real* v) {
+    if (light->columns == 0u)
+        blue_point(draw->texel, index + (draw->earlier + draw->first), u, v);
+    else
+        stratified_point(draw->key, index + draw->first, draw->dimension, index, &draw->strata, u,
+                         v);
+}
+
+/* Sample `index` of light->samples. */
+MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const LightDraw* draw,
+                                       Real3 from, Uint index, LightSample* out) {
     out->direction = splat_vector(make3(0.0f, 0.0f, 1.0f));
     out->unit_direction = out->direction;
     out->t_max = splat(-1.0f);
     out->weight = splat(0.0f);
     const Real3 position = splat_vector(vector_at(light->position));
-    if (light->kind == MACULA_LIGHT_DIRECTIONAL) {
+    if (light->kind == MACULA_LIGHT_DIRECTIONAL && light->radius == 0.0f) {
         out->direction = splat_vector(-vector_at(light->direction));
         out->unit_direction = out->direction;
         out->t_max = splat(MACULA_FAR_AWAY);
@@ -98,8 +144,10 @@ MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const S
             emit_cosine(light, out);
     } else {
         Real u, v;
-        stratified_point(key, sample * light->samples + index, dimension, index, strata, &u, &v);
-        if (light->kind == MACULA_LIGHT_SPHERE) {
+        light_point(light, draw, index, &u, &v);
+        if (light->kind == MACULA_LIGHT_DIRECTIONAL) {
+            sample_wide(light, u, v, out);
+        } else if (light->kind == MACULA_LIGHT_SPHERE) {
             sample_sphere(light, from, u, v, out);
         } else {
             const Real3 edge_u = splat_vector(vector_at(light->edge_u));
@@ -117,8 +165,10 @@ MACULA_ALWAYS_INLINE void sample_light(MACULA_GLOBAL const Light* light, const S
 MACULA_ALWAYS_INLINE Mask light_may_reach(MACULA_GLOBAL const Light* light, Real3 from, Real3 n) {
     const Real zero = splat(0.0f);
     const Real3 normal = splat_vector(vector_at(light->direction));
-    if (light->kind == MACULA_LIGHT_DIRECTIONAL)
-        return dot3(n, normal) < zero;
+    if (light->kind == MACULA_LIGHT_DIRECTIONAL) {
+        const float sine = m_sqrt(light->radius * (2.0f - light->radius));
+        return dot3(n, normal) < splat(sine * 1.0001f);
+    }
     const Real3 offset = sub3(splat_vector(vector_at(light->position)), from);
     const Real height = dot3(n, offset);
     if (light->kind == MACULA_LIGHT_POINT)

@@ -61,5 +61,15 @@ MACULA_ALWAYS_INLINE TexelSize log_polar_texel(MACULA_GLOBAL const LogPolarParam
     return size;
 }
 
+/* The width in pixels for which the thesis filters textures at a column (equations 4.2 and 4.3):
+ * b = 0.3 + 3 smoothstep(u^alpha)^3 levels are a factor of 2^b. Column 0: without phi. */
+MACULA_ALWAYS_INLINE float log_polar_thesis_spread(MACULA_GLOBAL const LogPolarParams* p,
+                                                   float column) {
+    const float u = clamped(m_divide(column, (float)p->width), 0.0f, 1.0f);
+    const float t = m_pow(u, p->alpha);
+    const float step = t * t * fma(t, -2.0f, 3.0f);
+    return m_exp2(fma(3.0f * step, step * step, 0.3f));
+}
+
 MACULA_SHARED_END
 #endif

@@ -10,6 +10,7 @@
 #include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/surface.h"
 #include "shared/weier.h"
 
 #define MACULA_STRUCT_LIST(STRUCT, MEMBER)                                                         \
@@ -79,8 +80,13 @@
     MEMBER(FrameParams, width)                                                                     \
     MEMBER(FrameParams, seed)                                                                      \
     MEMBER(FrameParams, gaze_widening)                                                             \
+    MEMBER(FrameParams, lod_bias)                                                                  \
     MEMBER(FrameParams, ambient)                                                                   \
     MEMBER(FrameParams, jitter)                                                                    \
+    STRUCT(SurfaceOptics)                                                                          \
+    MEMBER(SurfaceOptics, index_of_refraction)                                                     \
+    MEMBER(SurfaceOptics, transmission)                                                            \
+    MEMBER(SurfaceOptics, diffuse_part)                                                            \
     STRUCT(WeierParams)                                                                            \
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \
@@ -93,6 +99,7 @@
     STRUCT(LogPolarParams)                                                                         \
     MEMBER(LogPolarParams, alpha)                                                                  \
     MEMBER(LogPolarParams, pitch)                                                                  \
+    MEMBER(LogPolarParams, thesis_lod)                                                             \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
     MEMBER(Fovea, first_column)

@@ -41,9 +41,9 @@ typedef struct FrameParams {
     uint ambient_occlusion_samples; /* 0: none */
     uint ambient_occlusion_columns; /* of the grid of strata; divides the number of samples */
     float ambient_occlusion_radius; /* world units */
-    float gaze_widening; /* factor on the foveal radii, >= 1: the gaze may be stale */
-    uint pad;
-    float ambient[3]; /* ambient radiance, linear RGB */
+    float gaze_widening;            /* factor on the foveal radii, >= 1: the gaze may be stale */
+    float lod_bias;                 /* levels that every texture lookup goes up, or below 0 down */
+    float ambient[3];               /* ambient radiance, linear RGB */
     uint pad_ambient;
     float background[3]; /* radiance of rays that miss, linear RGB */
     uint pad_background;

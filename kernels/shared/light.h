@@ -21,7 +21,8 @@ typedef struct Light {
     uint kind;
     float colour[3];
     /* Sphere: of the emitter. Point: shadow rays end at this distance from it, so that a bulb's
-     * own geometry does not darken the point light in its middle. */
+     * own geometry does not darken the point light in its middle. Directional: 1 - cos of the
+     * angular radius; 0: all its light comes from one direction. */
     float radius;
     float direction[3]; /* unit: directional, the way light travels; rectangle, its normal */
     /* Square of the distance at which the inverse square law gives `colour`; 0: no falloff. */
@@ -29,7 +30,7 @@ typedef struct Light {
     float edge_u[3]; /* rectangle: full edges */
     uint samples;    /* shadow rays a pixel sample */
     float edge_v[3];
-    uint columns; /* of the grid of strata; divides `samples` */
+    uint columns; /* of the grid of strata; divides `samples`. 0: blue noise instead of strata */
 } Light;
 MACULA_ASSERT_SIZE(Light, 80);
 

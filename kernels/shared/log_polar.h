@@ -12,10 +12,12 @@ typedef struct LogPolarParams {
     float alpha, inverse_alpha; /* of the kernel function K(x) = x^alpha */
     float disk;         /* radius of the foveal disk: part of the image's half diagonal ... */
     float disk_tangent; /* ... or, above 0, the tangent of its angle */
-    float fade;    /* part of the disk's radius within which it passes into what surrounds it */
-    uint capacity; /* slots of the list of samples */
-    uint pitch;    /* of a row of the buffer: an empty texel, the columns, an empty texel */
-    uint pad[3];
+    float fade;      /* part of the disk's radius within which it passes into what surrounds it */
+    uint capacity;   /* slots of the list of samples */
+    uint pitch;      /* of a row of the buffer: an empty texel, the columns, an empty texel */
+    uint thesis_lod; /* 1: textures are filtered for a pixel and a bias (equation 4.2), else for a
+                      * sample's texel */
+    uint pad[2];
 } LogPolarParams;
 MACULA_ASSERT_SIZE(LogPolarParams, 48);
 

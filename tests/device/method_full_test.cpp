@@ -110,7 +110,7 @@ TEST_P(EachMode, EveryValueIsFinite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, EachMode,
-                         testing::Values(LightMode::point, LightMode::area,
+                         testing::Values(LightMode::point, LightMode::area, LightMode::soft,
                                          LightMode::ambient_occlusion),
                          [](const auto& mode) { return std::string(frame::name(mode.param)); });
 
@@ -125,8 +125,10 @@ scene::Scene closed_box() {
 }
 
 TEST(RayCounts, AreThoseOfThePapersTable) {
-    const std::map<LightMode, std::uint64_t> rays{
-        {LightMode::point, 2}, {LightMode::area, 9}, {LightMode::ambient_occlusion, 17}};
+    const std::map<LightMode, std::uint64_t> rays{{LightMode::point, 2},
+                                                  {LightMode::area, 9},
+                                                  {LightMode::soft, 4},
+                                                  {LightMode::ambient_occlusion, 17}};
     for (const auto& [mode, per_pixel] : rays) {
         render::Renderer renderer(device(), closed_box(), options(mode));
         EXPECT_EQ(renderer.render(0).total_rays(), per_pixel * 70 * 50);

@@ -59,7 +59,7 @@ TEST_P(EachMode, ADiskOverTheWholeImageIsMethodFullBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, EachMode,
-                         testing::Values(LightMode::point, LightMode::area,
+                         testing::Values(LightMode::point, LightMode::area, LightMode::soft,
                                          LightMode::ambient_occlusion));
 
 // Equation 5.1 in double precision: the disk's pixels, and the texels beyond the columns that lie

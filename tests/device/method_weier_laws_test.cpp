@@ -184,7 +184,7 @@ TEST_P(EachMode, WhatIsNotANumberIsGoneWithinAFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, EachMode,
-                         testing::Values(LightMode::point, LightMode::area,
+                         testing::Values(LightMode::point, LightMode::area, LightMode::soft,
                                          LightMode::ambient_occlusion),
                          [](const auto& mode) { return std::string(frame::name(mode.param)); });
 

@@ -209,7 +209,7 @@ TEST_P(EachMode, TwoRuntimesGiveTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, EachMode,
-                         testing::Values(LightMode::point, LightMode::area,
+                         testing::Values(LightMode::point, LightMode::area, LightMode::soft,
                                          LightMode::ambient_occlusion),
                          [](const auto& mode) { return std::string(frame::name(mode.param)); });
 

@@ -77,7 +77,7 @@ aovs=albedo,irradiance,depth,position,normal,shading_normal,triangle,material,mo
 # run the same kernels.
 under 'layout, arithmetic and prefix sum' "$races" selftest --quick
 for check in "$races" "$uninitialised"; do
-  for lights in point area ao; do
+  for lights in point area soft ao; do
     under "cornell, $lights lights" "$check" "${frame[@]}" --lights "$lights"
   done
   under 'highlights and every image' "$check" render whitted "${picture[@]}" --aov "$aovs"

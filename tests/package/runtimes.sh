@@ -61,7 +61,7 @@ fi
 
 small=(--size 96x64 --frames 0:1)
 for scene in cornell whitted tunnel_maps; do
-  for lights in point area ao; do
+  for lights in point area soft ao; do
     expected=$(hashes POCL_DEVICES=pthread -- "$scene" "${small[@]}" --lights "$lights" --device 0)
     for runtime in "${runtimes[@]}"; do
       read -ra environment <<<"${runtime#*|}"

@@ -30,6 +30,7 @@ struct WeierSetup {
     bool jitter = true; // where the method has it
     std::uint32_t samples_per_pixel = 1;
     frame::GeometryOptions geometry;
+    std::uint32_t depth = 0; // of reflected and refracted rays
 };
 
 class WeierFrames {
@@ -43,7 +44,8 @@ class WeierFrames {
           totals_(device.upload(std::span(kNoRays), "ray counts")),
           graph_(method_.make(
               {device, library_, geometry_, surfaces_, tracer_, size_.width, size_.height, lights_,
-               occlusion() ? setup.samples : 0, false, totals_, 1, setup.width, setup.height},
+               occlusion() ? setup.samples : 0, false, totals_, 1, setup.width, setup.height,
+               setup.depth},
               {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar, setup.temporal})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");

@@ -96,7 +96,7 @@ TEST(House, KernelsCallNothingThatRuntimesRoundDifferently) {
 // kernels/lib/math*.h chooses.
 TEST(House, KernelsDivideThroughTheMathLibrary) {
     const std::regex division(R"([\w)\]]\s*/\s*[\w(]|\bsqrt\s*\()");
-    const std::regex of_integers(R"(\b(int|uint|size_t|u32)\b|[0-9]+u|MACULA_RAY_BLOCK|get_|/ [0-9]+\))");
+    const std::regex of_integers(R"(\b(int|uint|Uint|size_t|u32)\b|[0-9]+u|MACULA_RAY_BLOCK|get_|/ [0-9]+\))");
     for (const fs::path& path : files_below("kernels", {".cl", ".h"})) {
         if (path.filename().string().starts_with("math"))
             continue;

@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "host/frame/blue_noise.hpp"
 #include "host/frame/lights.hpp"
 #include "lib/light.h"
 #include "lib/phong.h"
@@ -18,6 +20,8 @@ double dot(float3 a, float3 b) {
     return double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z;
 }
 
+constexpr shared::uint kPixelsOfSlice = MACULA_NOISE_SIDE * MACULA_NOISE_SIDE;
+
 struct Estimate {
     double mean, standard_error;
 };
@@ -26,13 +30,20 @@ struct Estimate {
 // the light's own strata; the error is that of the mean over pixels.
 Estimate irradiance(const Light& light, float3 from, float3 n, int pixels) {
     double sum = 0, squares = 0;
-    const shared::Strata strata = shared::make_strata(light.columns, light.samples);
+    shared::FrameParams frame{};
+    frame.samples_per_pixel = 1;
     for (int pixel = 0; pixel < pixels; ++pixel) {
-        const shared::uint key = shared::random_key(static_cast<shared::uint>(pixel), 0, 0);
+        const auto place = static_cast<shared::uint>(pixel);
+        const shared::uint key = shared::random_key(place, 0, 0);
+        const std::vector<std::uint32_t>& noise = frame::blue_noise();
+        frame.frame = place / kPixelsOfSlice;
+        const shared::uint texel =
+            noise[shared::noise_texel(place % 64, place / 64, frame.frame, 0)];
+        const auto draw = shared::make_light_draw(&light, &frame, 0, 16, key, texel);
         double one = 0;
         for (shared::uint i = 0; i < light.samples; ++i) {
             shared::LightSample s{};
-            shared::sample_light(&light, &strata, from, key, 0, 16, i, &s);
+            shared::sample_light(&light, &draw, from, i, &s);
             const double cosine = dot(n, s.unit_direction);
             if (s.t_max > 0.0f && cosine > 0.0)
                 one += double{s.weight} * cosine / light.samples;
@@ -135,10 +146,11 @@ TEST(SphereLight, ShadowRaysEndAtItsSurface) {
     source.position = {0, 3, 0};
     source.radius = 1.0f;
     const Light light = make(source, frame::LightMode::area, 16);
-    const shared::Strata strata = shared::make_strata(light.columns, light.samples);
+    const shared::FrameParams frame{};
+    const auto draw = shared::make_light_draw(&light, &frame, 0, 16, 77, 0);
     for (shared::uint i = 0; i < 16; ++i) {
         shared::LightSample s{};
-        shared::sample_light(&light, &strata, {0.5f, 0, 0}, 77, 0, 16, i, &s);
+        shared::sample_light(&light, &draw, {0.5f, 0, 0}, i, &s);
         const float3 end = scale_add3(s.direction, s.t_max, {0.5f, 0, 0});
         const float3 d = end - float3{0, 3, 0};
         EXPECT_NEAR(std::sqrt(dot(d, d)), 1.0, 5e-3);
@@ -172,11 +184,75 @@ TEST(DirectionalLight, GivesTheCosine) {
     EXPECT_NEAR(irradiance(light, {9, 9, 9}, {0, 1, 0}, 1).mean, 0.8, 1e-6);
 }
 
+scene::Light wide_sun(float degrees) {
+    scene::Light source;
+    source.kind = scene::LightKind::directional;
+    source.direction = {0.6f, -0.8f, 0.0f};
+    source.angle = degrees;
+    return source;
+}
+
+TEST(WideLight, GivesTheCosineOfItsMiddleWhileItIsAboveTheHorizon) {
+    for (const float degrees : {0.27f, 5.0f, 30.0f}) {
+        const Light light = make(wide_sun(degrees), frame::LightMode::soft, 3);
+        EXPECT_EQ(light.samples, 3u);
+        const Estimate e = irradiance(light, {9, 9, 9}, {0, 1, 0}, 16 * 4096);
+        EXPECT_NEAR(e.mean, 0.8, 5.0 * e.standard_error + 1e-6) << degrees;
+    }
+}
+
+TEST(WideLight, SendsItsRaysIntoItsConeAlone) {
+    const Light light = make(wide_sun(2.0f), frame::LightMode::soft, 3);
+    const double least = std::cos(2.0 * std::numbers::pi / 180.0);
+    const shared::FrameParams frame{};
+    double narrowest = 1.0;
+    for (const shared::uint texel : frame::blue_noise()) {
+        const auto draw = shared::make_light_draw(&light, &frame, 0, 16, 0, texel);
+        shared::LightSample s{};
+        shared::sample_light(&light, &draw, {1, 2, 3}, 1, &s);
+        const double cosine = dot(s.direction, {-0.6f, 0.8f, 0.0f});
+        EXPECT_GT(cosine, least - 1e-6);
+        narrowest = std::min(narrowest, cosine);
+    }
+    EXPECT_NEAR(narrowest, least, 1e-5) << "all of it";
+}
+
+TEST(WideLight, ReachesASurfaceWhoseHorizonItsMiddleIsBelow) {
+    const Light light = make(wide_sun(10.0f), frame::LightMode::soft, 3);
+    const auto turned = [](double degrees) { // above the light's direction
+        const double turn = (degrees + 36.869898) * std::numbers::pi / 180.0;
+        return float3{float(std::cos(turn)), float(std::sin(turn)), 0.0f};
+    };
+    EXPECT_TRUE(shared::light_may_reach(&light, {0, 0, 0}, turned(9.9)));
+    EXPECT_FALSE(shared::light_may_reach(&light, {0, 0, 0}, turned(-10.1)));
+}
+
+TEST(SoftLights, GiveWhatAreaLightsGive) {
+    scene::Light bulb;
+    bulb.kind = scene::LightKind::spherical;
+    bulb.position = {0.4f, 2.0f, -0.3f};
+    bulb.radius = 0.7f;
+    bulb.attenuation_distance = 1.0f;
+    const float3 up = {0, 1, 0};
+    for (const scene::Light& source : {bulb, rectangle()})
+        for (const float3 from : {float3{0, 0, 0}, float3{3, 0, 1}}) {
+            const Estimate soft =
+                irradiance(make(source, frame::LightMode::soft, 3), from, up, 16 * 4096);
+            const Estimate area =
+                irradiance(make(source, frame::LightMode::area, 16), from, up, 4096);
+            EXPECT_NEAR(soft.mean, area.mean,
+                        5.0 * (soft.standard_error + area.standard_error) + 1e-6);
+        }
+}
+
 TEST(LightModes, CountTheRaysOfThePapersTable) {
     scene::Light bulb;
     bulb.radius = 0.5f;
     EXPECT_EQ(make(bulb, frame::LightMode::point, 8).samples, 1u);
     EXPECT_EQ(make(bulb, frame::LightMode::area, 8).samples, 8u);
+    EXPECT_EQ(make(bulb, frame::LightMode::soft, 3).samples, 3u);
+    bulb.radius = 0.0f;
+    EXPECT_EQ(make(bulb, frame::LightMode::soft, 3).samples, 1u) << "nothing of it is soft";
     EXPECT_TRUE(
         frame::make_lights(scene_with(bulb), frame::LightMode::ambient_occlusion, 8).empty());
     EXPECT_THROW(make(bulb, frame::LightMode::area, 0), std::invalid_argument);
