@@ -1,6 +1,6 @@
 /* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where
- * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's for
- * others there: motion is the mean over the samples around a pixel, depth their range. */
+ * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's
+ * for others there: motion is the mean over the samples around a pixel, depth their range. */
 #include "lib/camera.h"
 #include "lib/log_polar.h"
 #include "lib/strip.h"
@@ -34,8 +34,8 @@ static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
 }
 
 /* One work-item a texel. ranges: the least and the greatest depth of three by three texels;
- * motions: their mean, the deviation of the luminance, 1. Texels without a sample have colours whose
- * alpha is 0. */
+ * motions: their mean, the deviation of the luminance, 1. Texels without a sample have colours
+ * whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
                              global const float4* restrict colours,
