@@ -145,7 +145,8 @@ MACULA_ALWAYS_INLINE void collect_instance(Layers* l, const TraceRay* world, con
 }
 
 /* counts[slot]: layers found up to the hit, at most `most`; what goes through those behind them is
- * `behind`. meets[slot]: 0 where the ray meets none, whatever it hits. histogram[k]: rays with more than k layers, begins as zeros. One work-item a slot. */
+ * `behind`. meets[slot]: 0 where the ray meets none, whatever it hits. histogram[k]: rays with more
+ * than k layers, begins as zeros. One work-item a slot. */
 kernel void collect_layers(
     global const FrameParams* restrict frame, global const uchar* restrict nodes,
     global const uchar* restrict triangles, global const Instance* restrict instances,
