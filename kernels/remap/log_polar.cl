@@ -75,14 +75,6 @@ static inline float4 read_taps(global const float4* buffer, const Taps* taps, ui
     return sum;
 }
 
-/* How much of the disk shows: 1 up to `inner`, 0 from `radius` on. */
-static inline Real part_of_disk(global const Fovea* fovea, Real distance) {
-    const float fade = m_divide(1.0f, m_max(fovea->radius - fovea->inner, 1e-6f));
-    const Real t = clamped((fovea->radius - distance) * fade, splat(0.0f), splat(1.0f));
-    const Real smooth = t * t * fma(t, splat(-2.0f), splat(3.0f));
-    return distance <= fovea->inner ? splat(1.0f) : smooth;
-}
-
 /* One work-item for MACULA_LANES slots: 4 x 4 pixels, or one. Within the disk the image holds its
  * samples, which pass into the buffer's colours towards the edge. */
 kernel void remap_log_polar(global const FrameParams* restrict frame,
@@ -106,7 +98,10 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
         return;
     const Real kept = m_max(distance, splat(fovea->inner));
     Taps taps;
-    put_taps(log_polar_column(params, fovea, kept), log_polar_row(params, x, y), params, &taps);
+    /* The samples lie in the buffer where the frame's jitter put them. */
+    const Real column = log_polar_column(params, fovea, kept) - frame->jitter[0];
+    put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
+             log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
     float4 sums[MACULA_LANES];
     for (uint lane = 0u; lane < MACULA_LANES; ++lane)
         sums[lane] = read_taps(buffer, &taps, lane);
