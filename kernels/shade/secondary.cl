@@ -49,6 +49,13 @@ static inline Continuation continuation_of(const Meeting* m, global const Surfac
     return c;
 }
 
+/* True where the material mirrors or refracts at all. */
+static inline Mask goes_on(global const SurfaceOptics* optics, Mask hit, Uint material) {
+    const Uint index = hit ? material : splat_uint(0u);
+    const Lane4 mirror = optics_row(optics, index, 0u), glass = optics_row(optics, index, 1u);
+    return largest3(add3(mirror.xyz, glass.xyz)) > splat(0.0f);
+}
+
 static inline Uint class_of(Real weight) {
     const Real exponent = floor(m_log2(m_max(weight, splat(LEAST_WEIGHT))));
     return to_uint(clamped(exponent + (float)(WEAK_CLASSES + 1u), splat(1.0f),
@@ -74,7 +81,7 @@ kernel void flag_secondary_rays(
     const Mask hit =
         (lanes_from(first) < *ray_count) & (load_uints(triangle, first) != MACULA_NO_TRIANGLE);
     Uint reflected = none, refracted = none;
-    if (any_lane(hit)) {
+    if (any_lane(hit & goes_on(optics, hit, load_uints(material, first)))) {
         const uint lane = first % MACULA_RAY_BLOCK;
         global const RayBlock* ray = rays + first / MACULA_RAY_BLOCK;
         const Real3 direction =
