@@ -11,6 +11,7 @@ namespace {
 constexpr std::array kMethods = {
     Method{"full", "every pixel, any samples per pixel", make_full},
     Method{"logpolar", "samples uniform in kernel log-polar space (Mrad 2022)", make_logpolar},
+    Method{"logrect", "samples uniform in log-rectilinear space (Li et al. 2021)", make_logrect},
     Method{"lowres", "uniform lower resolution, enlarged by a bicubic filter", make_lowres},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},
 };

@@ -12,8 +12,6 @@
 namespace macula::stage {
 namespace {
 
-constexpr const char* kGenerate = "generate/log_polar";
-
 void require(bool holds, const char* what) {
     if (!holds)
         throw std::invalid_argument(std::string("method logpolar: ") + what);
@@ -21,6 +19,7 @@ void require(bool holds, const char* what) {
 
 void check(const LogPolarOptions& o) {
     require(o.alpha >= 1.0f && o.alpha <= 16.0f, "alpha must be 1 to 16");
+    require(o.rect_alpha >= 1.0f && o.rect_alpha <= 16.0f, "alpha of logrect must be 1 to 16");
     require(o.sigma >= 1.0f && o.sigma <= 16.0f, "sigma must be 1 to 16");
     require(o.disk >= 0.0f && o.disk <= 10.0f, "the disk's radius must be 0 to 10 half diagonals");
     require(o.disk_degrees >= 0.0f && o.disk_degrees < 80.0f,
@@ -85,14 +84,19 @@ std::uint32_t LogPolarKit::packets() const {
     return disk_packets() + shared::slot_count(p.width, p.height) / MACULA_RAY_BLOCK;
 }
 
+compute::Kernel LogPolarKit::generator(const char* entry) const {
+    return kit.library.kernel(
+        kernel::VariantKey("generate/log_polar").parameter("rectangular", rectangular ? 1 : 0),
+        entry, kit.device);
+}
+
 frame::Stage place_fovea(const LogPolarKit& kit) {
     frame::Stage stage;
     stage.name = "place the fovea";
     stage.writes = {{"fovea", sizeof(shared::Fovea), 1}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto kernel =
-            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "place_fovea", kit.kit.device);
+        auto kernel = kit.generator("place_fovea");
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel.set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"])
                 .launch(name, {1}, {1});
@@ -111,8 +115,7 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
                     {"log-polar colour", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto choose =
-            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "choose_samples", kit.kit.device);
+        auto choose = kit.generator("choose_samples");
         auto sum =
             std::make_shared<kernel::PrefixSum>(kit.kit.library, kit.kit.device, kit.packets());
         const std::uint32_t packets = kit.packets();
@@ -143,8 +146,7 @@ frame::Stage log_polar_rays(const LogPolarKit& kit) {
         {"ray count", 4, 1},
     };
     stage.prepare = [kit, name = stage.name] {
-        auto kernel = kit.kit.library.kernel(kernel::VariantKey(kGenerate),
-                                             "generate_log_polar_rays", kit.kit.device);
+        auto kernel = kit.generator("generate_log_polar_rays");
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
@@ -166,7 +168,8 @@ frame::Stage remap_log_polar(const LogPolarKit& kit) {
     stage.prepare = [kit, name = stage.name] {
         auto place = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar"), "place_samples",
                                             kit.kit.device);
-        auto remap = kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
+        auto remap = kit.rectangular ? kit.kit.lane_kernel("remap/log_rect", "remap_log_rect")
+                                     : kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
         return [kit, name, place, remap](frame::Run& run) mutable {
             const compute::Buffer& texels = run["log-polar colour"];
             place

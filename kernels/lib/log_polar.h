@@ -36,6 +36,14 @@ MACULA_ALWAYS_INLINE float log_polar_direction(MACULA_GLOBAL const LogPolarParam
     return m_sin_cos_pi(m_divide(row + row, (float)p->height), cosine);
 }
 
+/* How much of the disk shows: 1 up to `inner`, 0 from `radius` on. */
+MACULA_ALWAYS_INLINE Real part_of_disk(MACULA_GLOBAL const Fovea* fovea, Real distance) {
+    const float fade = m_divide(1.0f, m_max(fovea->radius - fovea->inner, 1e-6f));
+    const Real t = clamped((fovea->radius - distance) * fade, splat(0.0f), splat(1.0f));
+    const Real smooth = t * t * fma(t, splat(-2.0f), splat(3.0f));
+    return distance <= fovea->inner ? splat(1.0f) : smooth;
+}
+
 /* Pixels that a texel takes along the radius and around it. */
 typedef struct TexelSize {
     float along, around;

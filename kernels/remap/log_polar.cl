@@ -75,14 +75,6 @@ static inline float4 read_taps(global const float4* buffer, const Taps* taps, ui
     return sum;
 }
 
-/* How much of the disk shows: 1 up to `inner`, 0 from `radius` on. */
-static inline Real part_of_disk(global const Fovea* fovea, Real distance) {
-    const float fade = m_divide(1.0f, m_max(fovea->radius - fovea->inner, 1e-6f));
-    const Real t = clamped((fovea->radius - distance) * fade, splat(0.0f), splat(1.0f));
-    const Real smooth = t * t * fma(t, splat(-2.0f), splat(3.0f));
-    return distance <= fovea->inner ? splat(1.0f) : smooth;
-}
-
 /* One work-item for MACULA_LANES slots: 4 x 4 pixels, or one. Within the disk the image holds its
  * samples, which pass into the buffer's colours towards the edge. */
 kernel void remap_log_polar(global const FrameParams* restrict frame,
