@@ -24,6 +24,7 @@ constexpr std::array kEntries = {
     Entry{"queue ", StageGroup::ray_tracing},
     Entry{"add light", StageGroup::ray_tracing},
     Entry{"shade", StageGroup::ray_tracing},
+    Entry{"bounce ", StageGroup::ray_tracing},
     Entry{"average ", StageGroup::ray_tracing},
     Entry{"keep the first ", StageGroup::ray_tracing},
     Entry{"extract the support image and G-buffer", StageGroup::cache_update},

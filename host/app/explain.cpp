@@ -22,8 +22,8 @@ int list_methods() {
     return 0;
 }
 
-// The stages are those of a small frame: they depend on the lights and on the images asked for, not
-// on the scene's size or the frame's.
+// The stages are those of a small frame: they depend on the lights, on the images asked for and on
+// whether something reflects, not on the scene's size or the frame's.
 int run(const app::RenderOptions& options) {
     if (options.method.empty())
         return list_methods();
@@ -31,7 +31,8 @@ int run(const app::RenderOptions& options) {
     render::Options engine = app::engine_options(options);
     engine.width = engine.height = 64;
     const compute::Device device = compute::open(options.device);
-    const render::Renderer renderer(device, scene::load("cornell"), engine);
+    const char* scene = engine.depth > 0 ? "cornell_spheres" : "cornell";
+    const render::Renderer renderer(device, scene::load(scene), engine);
     fmt::print("{}", renderer.explain());
     return 0;
 }
@@ -39,9 +40,14 @@ int run(const app::RenderOptions& options) {
 app::Run add(CLI::App& command) {
     auto options = std::make_shared<app::RenderOptions>();
     options->method.clear();
+    options->depth = 0;
     app::add_device_option(command, options->device);
     command.add_option("method", options->method, "A method; without it, the methods are listed");
     command.add_option("--lights", options->lights, "point, area, soft or ao")
+        ->capture_default_str();
+    command
+        .add_option("--depth", options->depth,
+                    "Levels of reflected and refracted rays, as of a scene that has any")
         ->capture_default_str();
     command.add_option("--aov", options->aovs, "Images besides colour, see render --list-aovs")
         ->delimiter(',');

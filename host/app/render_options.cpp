@@ -110,6 +110,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.ambient_occlusion_radius = options.ambient_occlusion_radius;
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
+    engine.depth = options.depth;
     engine.lod_bias = options.lod_bias;
     engine.variant = options.variant;
     engine.lanes = options.lanes;
@@ -141,6 +142,8 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--ao-samples", ambient_occlusion_samples, "Rays of ambient occlusion")
         ->capture_default_str();
     command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
+        ->capture_default_str();
+    command.add_option("--depth", depth, "Levels of reflected and refracted rays")
         ->capture_default_str();
     command.add_option("--lod-bias", lod_bias, "Levels that every texture lookup goes up")
         ->capture_default_str();

@@ -33,6 +33,10 @@ void Graph::append(Stage stage, int group) {
             throw GraphError(fmt::format("method {}: stage \"{}\" reads \"{}\" before any stage "
                                          "has written it",
                                          name_, stage.name, resource));
+        if (holds_[place_[resource]] != resource)
+            throw GraphError(fmt::format("method {}: stage \"{}\" reads \"{}\" after \"{}\" has "
+                                         "taken its storage",
+                                         name_, stage.name, resource, holds_[place_[resource]]));
     }
     for (const Resource& resource : stage.writes) {
         const auto [place, is_new] = writer_.try_emplace(resource.name, nodes_.size());
@@ -41,6 +45,8 @@ void Graph::append(Stage stage, int group) {
                 "method {}: stage \"{}\" writes \"{}\", which stage \"{}\" writes already", name_,
                 stage.name, resource.name,
                 place->second < nodes_.size() ? nodes_[place->second].stage.name : stage.name));
+        place_[resource.name] = resource.place();
+        holds_[resource.place()] = resource.name;
     }
     nodes_.push_back({std::move(stage), group, false, {}});
 }
@@ -55,6 +61,15 @@ std::vector<std::string> Graph::resources() const {
 const Graph::Node* Graph::writer_of(const std::string& resource) const {
     const auto found = writer_.find(resource);
     return found == writer_.end() ? nullptr : &nodes_[found->second];
+}
+
+// Last frame's contents are kept by exchanging buffers.
+void Graph::require_own_storage(const std::string& reader, const std::string& resource) const {
+    for (const auto& [name, place] : place_)
+        if (name != resource && place == place_.at(resource))
+            throw GraphError(fmt::format("method {}: stage \"{}\" reads the last frame's \"{}\", "
+                                         "whose storage \"{}\" uses as well",
+                                         name_, reader, resource, name));
 }
 
 // Backwards from the outputs; once more for every history that turns out to be read.
@@ -75,6 +90,7 @@ void Graph::mark_needed(const std::set<std::string>& outputs) {
                 throw GraphError(fmt::format("method {}: stage \"{}\" reads the last frame's "
                                              "\"{}\", which no stage writes",
                                              name_, node.stage.name, past));
+            require_own_storage(node.stage.name, past);
             history_.insert(past);
             open.push_back(past);
         }

@@ -62,7 +62,8 @@ class Graph {
     Graph(std::string name, std::string purpose);
 
     // Stages run in the order in which they are added. Throws GraphError when a stage reads what no
-    // earlier stage writes, or writes what another one writes.
+    // earlier stage writes, or what has given its storage to another resource since, or writes what
+    // another one writes.
     Graph& add(Stage stage);
     // Stages that run one after another for each pixel sample.
     Graph& for_each_sample(std::vector<Stage> stages);
@@ -98,6 +99,7 @@ class Graph {
 
     void append(Stage stage, int group);
     const Node* writer_of(const std::string& resource) const;
+    void require_own_storage(const std::string& reader, const std::string& resource) const;
     void mark_needed(const std::set<std::string>& outputs);
     void allocate(compute::Device& device);
     void run_group(std::size_t first, std::size_t last, const shared::FrameParams& params);
@@ -105,6 +107,8 @@ class Graph {
     std::string name_, purpose_;
     std::vector<Node> nodes_;
     std::map<std::string, std::size_t> writer_; // resource -> node
+    std::map<std::string, std::string> place_;  // resource -> storage
+    std::map<std::string, std::string> holds_;  // storage -> resource that was written last
     std::set<std::string> needed_;
     std::set<std::string> history_; // needed resources of which the last frame's are read
     std::unique_ptr<Resources> resources_;

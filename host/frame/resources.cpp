@@ -20,7 +20,13 @@ Resources::Resources(compute::Device& device)
     : device_(device), params_(device.allocate(sizeof(shared::FrameParams), "frame parameters")) {}
 
 void Resources::allocate(const Resource& resource) {
-    current_[resource.name] = device_.allocate(bytes_of(resource), resource.name);
+    compute::Buffer& buffer = storage_[resource.place()];
+    if (!buffer)
+        buffer = device_.allocate(bytes_of(resource), resource.place());
+    else if (buffer.size() != bytes_of(resource))
+        throw std::invalid_argument("resource \"" + resource.name + "\" and its storage \"" +
+                                    resource.place() + "\" differ in size");
+    current_[resource.name] = buffer;
 }
 
 void Resources::keep_history(const Resource& resource) {

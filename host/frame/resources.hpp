@@ -14,12 +14,18 @@ struct Resource {
     std::string name;
     std::uint32_t element_bytes = 0;
     std::uint64_t count = 0;
+    // The memory it lies in: resources with the same storage take turns in it, or are one buffer
+    // that a stage changes in place. Empty: memory of its own, called as the resource.
+    std::string storage = {};
+
+    const std::string& place() const { return storage.empty() ? name : storage; }
 };
 
 class Resources {
   public:
     explicit Resources(compute::Device& device);
 
+    // Throws std::invalid_argument where resources of one storage differ in size.
     void allocate(const Resource& resource);
     // Allocates a second buffer, filled with zeros, for the last frame's contents.
     void keep_history(const Resource& resource);
@@ -43,7 +49,7 @@ class Resources {
   private:
     compute::Device& device_;
     compute::Buffer params_, none_;
-    std::map<std::string, compute::Buffer> current_, last_, scratch_;
+    std::map<std::string, compute::Buffer> current_, last_, scratch_, storage_;
     std::map<std::string, std::uint64_t> scratch_bytes_;
 };
 

@@ -1,5 +1,6 @@
 #include "host/frame/surfaces.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace macula::frame {
@@ -60,6 +61,10 @@ shared::SurfaceMaterial make_material(const scene::Material& m, const TextureDat
     return out;
 }
 
+bool any_positive(const glm::vec3& v) {
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
 // A kernel must be given some memory, also where there is nothing in it.
 template <class T>
 compute::Buffer upload(compute::Device& device, const std::vector<T>& values, const char* what) {
@@ -69,6 +74,25 @@ compute::Buffer upload(compute::Device& device, const std::vector<T>& values, co
 }
 
 } // namespace
+
+bool has_optics(const scene::Scene& scene) {
+    return std::ranges::any_of(scene.materials, [](const scene::Material& m) {
+        return any_positive(m.reflectivity) || any_positive(m.transmission);
+    });
+}
+
+shared::SurfaceOptics make_optics(const scene::Material& m) {
+    shared::SurfaceOptics out{};
+    out.index_of_refraction = std::clamp(m.index_of_refraction, 0.1f, 10.0f);
+    for (int i = 0; i < 3; ++i) {
+        const float scale = 1.0f / std::max(1.0f, m.reflectivity[i] + m.transmission[i]);
+        out.reflectivity[i] = m.reflectivity[i] * scale;
+        out.transmission[i] = m.transmission[i] * scale;
+        const float left = 1.0f - out.reflectivity[i] - out.transmission[i];
+        out.diffuse_part[i] = m.diffuse[i] > left ? std::max(left, 0.0f) / m.diffuse[i] : 1.0f;
+    }
+    return out;
+}
 
 DeviceSurfaces::DeviceSurfaces(compute::Device& device, const scene::Scene& scene,
                                std::span<const MeshPart> parts) {
@@ -97,8 +121,12 @@ DeviceSurfaces::DeviceSurfaces(compute::Device& device, const scene::Scene& scen
     }
     const TextureData data(scene);
     std::vector<shared::SurfaceMaterial> table;
-    for (const scene::Material& material : scene.materials)
+    std::vector<shared::SurfaceOptics> optics_table;
+    for (const scene::Material& material : scene.materials) {
         table.push_back(make_material(material, data));
+        optics_table.push_back(make_optics(material));
+    }
+    optics = upload(device, optics_table, "optics of materials");
     materials = upload(device, table, "materials");
     textures = upload(device, data.textures, "textures");
     levels = upload(device, data.levels, "texture levels");

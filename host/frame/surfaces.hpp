@@ -25,6 +25,14 @@ struct TextureData {
     explicit TextureData(const scene::Scene& scene);
 };
 
+// Some material mirrors or refracts.
+bool has_optics(const scene::Scene& scene);
+
+// A material's part of the table that secondary rays are made from. No component of what it
+// reflects, transmits and scatters sums to more than 1: mirror and transmission are scaled to that,
+// then the diffuse colour gives way.
+shared::SurfaceOptics make_optics(const scene::Material& material);
+
 // 512 entries: byte / 255, then the linear value of an sRGB byte (IEC 61966-2-1).
 std::vector<float> decoding_table();
 
@@ -36,6 +44,7 @@ class DeviceSurfaces {
                    std::span<const MeshPart> parts);
 
     compute::Buffer triangles, vertices, materials; // SurfaceTriangle, SurfaceVertex, ...
+    compute::Buffer optics;                         // SurfaceOptics
     compute::Buffer textures, levels, texels, decode;
 };
 

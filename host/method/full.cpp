@@ -17,8 +17,9 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options) {
         stage::resolve_surface(kit),
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
         stage::shade(kit, !occlusion, occlusion),
-        stage::average_samples(kit, "surface colour", "colour"),
     };
+    const std::string colour = add_secondary_rays(stages, kit, options);
+    stages.push_back(stage::average_samples(kit, colour, "colour"));
     for (frame::Stage& image : surface_images(kit, options))
         stages.push_back(std::move(image));
     graph.for_each_sample(std::move(stages));

@@ -21,15 +21,17 @@ frame::Graph make_logrect(const stage::Kit& kit, const Options& options) {
         true};
     frame::Graph graph("logrect", "samples uniform in log-rectilinear space (Li et al. 2021)");
     graph.add(stage::place_fovea(log_rect)).add(stage::choose_samples(log_rect));
-    graph.for_each_sample({
+    const stage::PlaceRows rows{kit.width, log_rect.buffer->params().pitch};
+    std::vector<frame::Stage> stages = {
         stage::log_polar_rays(log_rect),
         stage::trace_primary_rays(kit, kernel::RayClass::sparse),
         stage::resolve_surface(kit, "spread of slot"),
-        occlusion ? stage::ambient_occlusion(kit)
-                  : stage::direct_light(kit, {kit.width, log_rect.buffer->params().pitch}),
+        occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit, rows),
         stage::shade(kit, !occlusion, occlusion),
-        stage::average_listed(kit, "surface colour", "sampled colour", 16),
-    });
+    };
+    const std::string colour = add_secondary_rays(stages, kit, options, "spread of slot", rows);
+    stages.push_back(stage::average_listed(kit, colour, "sampled colour", 16));
+    graph.for_each_sample(std::move(stages));
     graph.add(stage::remap_log_polar(log_rect));
     return graph;
 }

@@ -62,7 +62,8 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     if (light.filtered)
         sampling.push_back(stage::filter_light(foveated, light.fresh, light.image, light.bytes));
     sampling.push_back(stage::shade(kit, !occlusion, occlusion, light.shaded(), light.shaded()));
-    sampling.push_back(stage::average_listed(kit, "surface colour", "sampled colour", 16));
+    const std::string colour = add_secondary_rays(sampling, kit, options);
+    sampling.push_back(stage::average_listed(kit, colour, "sampled colour", 16));
     if (light.filtered)
         sampling.push_back(
             stage::average_listed(kit, light.shaded(), "sampled light", light.bytes));

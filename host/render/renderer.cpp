@@ -38,6 +38,8 @@ constexpr std::array kFormats = {
     ImageFormat{kLensImage, 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
 };
 
+constexpr std::uint32_t kMaxDepth = 16;
+
 bool has_highlights(const scene::Scene& scene) {
     for (const scene::Material& m : scene.materials)
         if (m.specular.x > 0.0f || m.specular.y > 0.0f || m.specular.z > 0.0f)
@@ -69,6 +71,9 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
         s.background[i] = scene.background[i];
     }
     frame::check(s);
+    if (options.depth > kMaxDepth)
+        throw std::invalid_argument(
+            fmt::format("depth {} is not between 0 and {}", options.depth, kMaxDepth));
     if (occlusion && s.ambient_occlusion_samples == 0)
         throw std::invalid_argument("lights \"ao\" need at least one ambient occlusion sample");
     return s;
@@ -131,7 +136,8 @@ struct Renderer::State {
           graph(make_graph({device, on_device->library, on_device->geometry, on_device->surfaces,
                             tracer, settings.width, settings.height, lights,
                             settings.ambient_occlusion_samples, has_highlights(scene), ray_totals,
-                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes, o.width, o.height},
+                            o.lanes == 0 ? stage::lanes_for(device) : o.lanes, o.width, o.height,
+                            frame::has_optics(scene) ? o.depth : 0},
                            o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());

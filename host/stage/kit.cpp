@@ -5,7 +5,22 @@
 namespace macula::stage {
 
 std::uint32_t Kit::slots() const {
-    return shared::slot_count(width, height);
+    const std::uint32_t of_pixels = shared::slot_count(width, height);
+    return level == 0 ? of_pixels : kRaysOfHit * of_pixels;
+}
+
+Kit Kit::at_level(std::uint32_t of_rays) const {
+    Kit kit = *this;
+    kit.level = of_rays;
+    return kit;
+}
+
+std::string Kit::named(const std::string& what) const {
+    return level == 0 ? what : "bounce " + std::to_string(level) + " " + what;
+}
+
+std::string Kit::rays() const {
+    return level == 0 ? "primary rays" : named("rays");
 }
 
 compute::Kernel Kit::lane_kernel(const char* program, const char* entry) const {
@@ -22,6 +37,10 @@ std::uint32_t lanes_for(const compute::Device& device) {
 
 frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t element_bytes) {
     return {name, element_bytes, kit.slots()};
+}
+
+frame::Resource of_level(const Kit& kit, const std::string& what, std::uint32_t element_bytes) {
+    return {kit.named(what), element_bytes, kit.slots(), kit.level == 0 ? "" : "bounce " + what};
 }
 
 frame::Resource per_pixel(const Kit& kit, const std::string& name, std::uint32_t element_bytes) {

@@ -15,6 +15,9 @@
 
 namespace macula::stage {
 
+// Secondary rays that one hit can have: a mirrored and a refracted one.
+inline constexpr std::uint32_t kRaysOfHit = 2;
+
 struct Kit {
     compute::Device& device;
     kernel::Library& library;
@@ -31,8 +34,18 @@ struct Kit {
     std::uint32_t lanes = 1;
     // Pixels of the picture where a method enlarges what it renders; 0: those that are rendered.
     std::uint32_t target_width = 0, target_height = 0;
+    // Levels of reflected and refracted rays; 0 also where no material has any.
+    std::uint32_t depth = 0;
+    // Of the rays that a stage is made for: 0, the primary ones.
+    std::uint32_t level = 0;
 
-    std::uint32_t slots() const; // of the order of lib/camera.h; a multiple of 1024
+    Kit at_level(std::uint32_t of_rays) const;
+    // A resource or launch of this level: "hits", "bounce 1 hits".
+    std::string named(const std::string& what) const;
+    std::string rays() const; // "primary rays", "bounce 1 rays"
+    // Of the level's list: as many as the order of lib/camera.h has (a multiple of 1024); twice
+    // that for secondary rays.
+    std::uint32_t slots() const;
     std::uint64_t pixels() const { return std::uint64_t{width} * height; }
     std::uint32_t picture_width() const { return target_width != 0 ? target_width : width; }
     std::uint32_t picture_height() const { return target_height != 0 ? target_height : height; }
@@ -50,6 +63,9 @@ inline constexpr std::size_t kGroup = 64;
 
 // A resource with one entry for each ray slot, or for each pixel.
 frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t element_bytes);
+// The same for the rays of the kit's level, of that name. Secondary levels take turns in the same
+// memory.
+frame::Resource of_level(const Kit& kit, const std::string& what, std::uint32_t element_bytes);
 frame::Resource per_pixel(const Kit& kit, const std::string& name, std::uint32_t element_bytes);
 
 } // namespace macula::stage

@@ -37,40 +37,46 @@ class DirectLight {
 
   private:
     // Otherwise the first light does it.
-    static void clear(frame::Run& run) {
-        run["surface irradiance"].fill(0);
-        if (run["surface highlight"])
-            run["surface highlight"].fill(0);
+    void clear(frame::Run& run) const {
+        run[kit_.named("surface irradiance")].fill(0);
+        if (run[kit_.named("surface highlight")])
+            run[kit_.named("surface highlight")].fill(0);
     }
 
     void one_light(frame::Run& run, std::uint32_t light) {
         flag_
-            .set(run["ray count"], run["surface triangle"], run["surface position"],
-                 run["surface geometric normal"], lights_, light, run.scratch("queue flags"),
-                 run["surface irradiance"], run["surface highlight"])
-            .launch("flag lit surfaces", kit_.lane_items(kit_.slots()), kit_.lane_group());
-        compaction_.run(run.scratch("queue flags"), run["ray count"], run.scratch("queue"),
-                        run.scratch("queue count"), "queue lit surfaces");
+            .set(run[kit_.named("ray count")], run[kit_.named("surface triangle")],
+                 run[kit_.named("surface position")], run[kit_.named("surface geometric normal")],
+                 lights_, light, run.scratch("queue flags"), run[kit_.named("surface irradiance")],
+                 run[kit_.named("surface highlight")])
+            .launch(kit_.named("flag lit surfaces"), kit_.lane_items(kit_.slots()),
+                    kit_.lane_group());
+        compaction_.run(run.scratch("queue flags"), run[kit_.named("ray count")],
+                        run.scratch("queue"), run.scratch("queue count"),
+                        kit_.named("queue lit surfaces"));
         const std::uint32_t samples = kit_.lights[light].samples;
         const std::uint32_t entries = batch_entries(kit_, samples);
         for_each_batch(kit_, entries, [&](std::uint32_t first) {
             generate_
                 .set(run.params_buffer(), run.sample(), lights_, light, rows_.pixels, rows_.texels,
                      noise_, run.scratch("queue"), run.scratch("queue count"), first,
-                     run["pixel of slot"], run["surface position"], run["surface geometric normal"],
-                     run.scratch("queued rays"), run.scratch("queued ray count"), kit_.ray_totals,
+                     run[kit_.named("pixel of slot")], run[kit_.named("surface position")],
+                     run[kit_.named("surface geometric normal")], run.scratch("queued rays"),
+                     run.scratch("queued ray count"), kit_.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::shadow))
-                .launch("generate shadow rays", kit_.lane_items(entries * samples),
+                .launch(kit_.named("generate shadow rays"), kit_.lane_items(entries * samples),
                         kit_.lane_group());
             kit_.tracer.any(kernel::RayClass::shadow, run.scratch("queued rays"),
                             run.scratch("queued ray count"), entries * samples,
-                            run.scratch("occluded"), "trace shadow rays");
+                            run.scratch("occluded"), kit_.named("trace shadow rays"));
             add_.set(run.params_buffer(), run.sample(), lights_, light, rows_.pixels, rows_.texels,
                      noise_, run.scratch("queue"), run.scratch("queue count"), first,
-                     run["pixel of slot"], run["surface position"], run["surface geometric normal"],
-                     run["surface shading normal"], run["surface specular"],
-                     run.scratch("occluded"), run["surface irradiance"], run["surface highlight"])
-                .launch("add light", kit_.lane_items(entries), kit_.lane_group());
+                     run[kit_.named("pixel of slot")], run[kit_.named("surface position")],
+                     run[kit_.named("surface geometric normal")],
+                     run[kit_.named("surface shading normal")], run[kit_.named("surface specular")],
+                     run[kit_.named("origin")], run.scratch("occluded"),
+                     run[kit_.named("surface irradiance")], run[kit_.named("surface highlight")])
+                .launch(kit_.named("add light"), kit_.lane_items(entries), kit_.lane_group());
         });
     }
 
@@ -88,17 +94,16 @@ frame::Stage direct_light(const Kit& kit, PlaceRows rows) {
     for (const shared::Light& light : kit.lights)
         samples = std::max(samples, light.samples);
     frame::Stage stage;
-    stage.name = "gather direct light";
-    stage.reads = {"ray count",
-                   "pixel of slot",
-                   "surface triangle",
-                   "surface position",
-                   "surface geometric normal",
-                   "surface shading normal"};
+    stage.name = kit.named("gather direct light");
+    for (const char* read : {"ray count", "pixel of slot", "surface triangle", "surface position",
+                             "surface geometric normal", "surface shading normal"})
+        stage.reads.push_back(kit.named(read));
     if (kit.highlights)
-        stage.reads.push_back("surface specular");
-    stage.writes = {per_slot(kit, "surface irradiance", 16),
-                    per_slot(kit, "surface highlight", 16)};
+        stage.reads.push_back(kit.named("surface specular"));
+    if (kit.level > 0)
+        stage.reads.push_back(kit.named("origin"));
+    stage.writes = {of_level(kit, "surface irradiance", 16),
+                    of_level(kit, "surface highlight", 16)};
     stage.scratch = queue_scratch(kit, samples);
     stage.prepare = [kit, rows] {
         auto body = std::make_shared<DirectLight>(kit, rows);

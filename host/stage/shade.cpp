@@ -25,29 +25,35 @@ frame::Stage average(const Kit& kit, const std::string& from, const std::string&
 
 frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion,
                    const std::string& irradiance, const std::string& openness) {
+    const bool highlights = direct_light && kit.highlights, optics = kit.depth > 0;
     frame::Stage stage;
-    stage.name = "shade";
-    stage.reads = {"ray count", "surface albedo", "surface emission"};
+    stage.name = kit.named("shade");
+    for (const char* read : {"ray count", "surface albedo", "surface emission"})
+        stage.reads.push_back(kit.named(read));
     if (direct_light)
         stage.reads.push_back(irradiance);
-    if (direct_light && kit.highlights)
-        stage.reads.insert(stage.reads.end(), {"surface specular", "surface highlight"});
+    if (highlights)
+        stage.reads.insert(stage.reads.end(),
+                           {kit.named("surface specular"), kit.named("surface highlight")});
     if (ambient_occlusion)
         stage.reads.push_back(openness);
-    stage.writes = {per_slot(kit, "surface colour", 16)};
-    stage.prepare = [kit, direct_light, ambient_occlusion, irradiance, openness,
-                     name = stage.name] {
+    if (optics)
+        stage.reads.push_back(kit.named("surface material"));
+    stage.writes = {of_level(kit, "surface colour", 16)};
+    stage.prepare = [=, name = stage.name] {
         auto kernel =
             kit.library.kernel(kernel::VariantKey("shade/shade"), "shade_samples", kit.device);
         return [=](frame::Run& run) mutable {
-            const bool highlights = direct_light && kit.highlights;
+            const auto of = [&](const char* what, bool wanted = true) {
+                return wanted ? run[kit.named(what)] : compute::Buffer();
+            };
             const compute::Buffer none;
             kernel
-                .set(run.params_buffer(), run["ray count"], run["surface albedo"],
-                     highlights ? run["surface specular"] : none, run["surface emission"],
-                     direct_light ? run[irradiance] : none,
-                     highlights ? run["surface highlight"] : none,
-                     ambient_occlusion ? run[openness] : none, run["surface colour"])
+                .set(run.params_buffer(), of("ray count"), of("surface albedo"),
+                     of("surface specular", highlights), of("surface emission"),
+                     direct_light ? run[irradiance] : none, of("surface highlight", highlights),
+                     ambient_occlusion ? run[openness] : none, of("surface material", optics),
+                     optics ? kit.surfaces.optics : none, of("surface colour"))
                 .launch(name, {kit.slots()}, {kGroup});
         };
     };

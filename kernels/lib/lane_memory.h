@@ -46,6 +46,13 @@ MACULA_ALWAYS_INLINE void store4(global float4* p, uint first, Real3 xyz, Real w
 MACULA_ALWAYS_INLINE void store2(global float2* p, uint first, Real x, Real y) {
     p[first] = (float2)(x, y);
 }
+MACULA_ALWAYS_INLINE void store2_uints(global uint* p, uint first, Uint x, Uint y) {
+    p[2u * first] = x;
+    p[2u * first + 1u] = y;
+}
+MACULA_ALWAYS_INLINE uint count_lanes(Mask mask) {
+    return mask ? 1u : 0u;
+}
 /* Where `wanted`; the slots differ from lane to lane. */
 MACULA_ALWAYS_INLINE void scatter4(global float4* p, Uint index, Mask wanted, Real3 xyz, Real w) {
     if (wanted)
@@ -128,6 +135,14 @@ MACULA_ALWAYS_INLINE void store2(global float2* p, uint first, Real x, Real y) {
     vstore16((float16)(x.hi, y.hi).s08192a3b4c5d6e7f, 1, words);
 }
 
+/* Two words a slot. */
+MACULA_ALWAYS_INLINE void store2_uints(global uint* p, uint first, Uint x, Uint y) {
+    vstore16((uint16)(x.lo, y.lo).s08192a3b4c5d6e7f, 0, p + 2u * first);
+    vstore16((uint16)(x.hi, y.hi).s08192a3b4c5d6e7f, 1, p + 2u * first);
+}
+MACULA_ALWAYS_INLINE uint count_lanes(Mask mask) {
+    return popcount(bits_of_lanes16(mask));
+}
 MACULA_ALWAYS_INLINE void scatter4(global float4* p, Uint index, Mask wanted, Real3 xyz, Real w) {
     const Slots4 s = slots_of(xyz, w);
     float4 values[16];

@@ -2,6 +2,7 @@
 #ifndef MACULA_LIB_PACKET_H
 #define MACULA_LIB_PACKET_H
 
+#include "lib/plain_hit.h"
 #include "lib/ray16.h"
 #include "shared/bvh.h"
 
@@ -36,6 +37,7 @@ typedef struct Packet {
     bool turned;         /* the bounds are those of the rays as seen from their other ends, */
     uint frustum_octant; /* and this is the octant of the rays as seen so */
     float margin;        /* more than what lanes pad planes by, as a distance */
+    bool plain;          /* small enough for plain hits (lib/plain_hit.h) */
 } Packet;
 
 /* Asks the cache for a block of the queue: the next one that this work-item, or the one after it on
@@ -167,6 +169,13 @@ static inline void shear_packet(Packet* p, const float16 d[3], const PacketBound
     p->sy = pick_axis16(p->kz, d[2], d[0], d[1]) * p->sz;
 }
 
+static inline bool is_plain(const PacketBounds* b) {
+    float size = b->reach;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        size = m_max(size, m_max(-b->d_lo[axis], b->d_hi[axis]));
+    return size <= MACULA_PLAIN_SIZE;
+}
+
 /* make_trace_ray. */
 static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
     const float16 d[3] = {bounded_direction16(q->dx), bounded_direction16(q->dy),
@@ -186,6 +195,7 @@ static inline PacketBounds make_packet(const QueuedPacket* q, Packet* p) {
     p->octant = octant_of(&b);
     p->mixed = has_both_signs(&b);
     shear_packet(p, d, &b);
+    p->plain = is_plain(&b);
     p->margin = 2.0f * MACULA_RAY_MARGIN * b.reach;
     p->turned = false;
 #if MACULA_ANY_HIT

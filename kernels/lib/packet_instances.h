@@ -5,9 +5,12 @@
 
 #include "lib/packet_traverse.h"
 
-static inline PacketInstance instance_of(global const Instance* instance) {
+static inline PacketInstance instance_of(const TraceScene* scene,
+                                         global const Instance* instance) {
     PacketInstance i;
     i.near = 0.0f;
+    i.plain =
+        mesh_size((global const Wide8Node*)scene->nodes + instance->root) <= MACULA_PLAIN_SIZE;
     i.first_triangle = instance->first_triangle;
     i.mesh_triangle = instance->mesh_triangle;
     return i;
@@ -46,7 +49,7 @@ static inline void traverse_instance16(const TraceScene* scene, const QueuedPack
     global const Instance* instance = scene->instances + index;
     const float lo[3] = {instance->lo[0], instance->lo[1], instance->lo[2]};
     const float hi[3] = {instance->hi[0], instance->hi[1], instance->hi[2]};
-    PacketInstance i = instance_of(instance);
+    PacketInstance i = instance_of(scene, instance);
     float16 far;
     box_interval16(world, lo, hi, &i.near, &far);
     const int16 enters = i.near <= m_min(far, world->t_max);

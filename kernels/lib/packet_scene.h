@@ -58,7 +58,7 @@ static inline void trace_coherent(const TraceScene* scene, const QueuedPacket* q
 #if MACULA_INSTANCES
     traverse_instances16(scene, q, p, best);
 #else
-    const PacketInstance instance = instance_of(scene->instances);
+    const PacketInstance instance = instance_of(scene, scene->instances);
     traverse_packet(scene, &instance, p, bounds, best, scene->instances[0].root);
 #endif
 }

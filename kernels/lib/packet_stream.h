@@ -18,31 +18,35 @@ typedef struct PacketStream {
 } PacketStream;
 
 /* Each level leaves at most seven siblings behind; a push writes all eight children. */
-#define MACULA_PACKET_STACK (MACULA_WIDE_STACK + 8)
+#define MACULA_PACKET_STACK (7 * MACULA_MAX_DEPTH + 16)
 
-/* Puts the children that are entered on the stack, the nearest on top: child `slot % 8` of node
- * `slot / 8`. */
-static inline uint push_packets(MaskedEntry* stack, uint depth, uint index, int8 found,
-                                float8 nearest) {
-    const uint slot = index * 8u;
-    const int8 place = push_places8(child_keys8(found, as_int8(nearest) & ~7));
-    stack += depth;
-    put_entry(stack, place.s0, slot, found.s0);
-    put_entry(stack, place.s1, slot + 1u, found.s1);
-    put_entry(stack, place.s2, slot + 2u, found.s2);
-    put_entry(stack, place.s3, slot + 3u, found.s3);
-    put_entry(stack, place.s4, slot + 4u, found.s4);
-    put_entry(stack, place.s5, slot + 5u, found.s5);
-    put_entry(stack, place.s6, slot + 6u, found.s6);
-    put_entry(stack, place.s7, slot + 7u, found.s7);
-    return depth + entered_children8(found);
+typedef struct PacketStack {
+    int child[MACULA_PACKET_STACK];
+    int slot[MACULA_PACKET_STACK];    /* its box is number slot % 8 of node slot / 8 */
+    int packets[MACULA_PACKET_STACK]; /* those that enter it */
+    uint depth;
+} PacketStack;
+
+/* Children are ordered by the t at which some packet enters them, nearest on top. For any-hit
+ * queries t is rounded to two bits, and of children about as near the largest, so the node's first,
+ * comes first: it is the likeliest to hold what blocks the light. */
+#define MACULA_ORDER_BITS (MACULA_ANY_HIT ? ~0x3fffff : ~7)
+
+/* Puts the children of node `index` that packets enter on the stack. */
+static inline void push_packets(PacketStack* stack, global const Wide8Node* node, uint index,
+                                int8 packets, float8 nearest) {
+    const int8 order = sorted8(child_keys8(packets, as_int8(nearest) & MACULA_ORDER_BITS));
+    const int8 slot = (int8)((int)(index * 8u)) | MACULA_LANES8;
+    vstore8(permuted8(vload8(0, node->child), order), 0, stack->child + stack->depth);
+    vstore8(permuted8(slot, order), 0, stack->slot + stack->depth);
+    vstore8(permuted8(packets, order), 0, stack->packets + stack->depth);
+    stack->depth += entered_children8(packets);
 }
 
-/* Tests the packets' frusta against a node's children and puts those that are entered on the stack
- * of `depth` entries; returns how many there are now. */
-static inline uint visit_node(const TraceScene* scene, const PacketStream* stream, uint index,
-                              uint packets, uint octant, bool mixed, MaskedEntry* stack,
-                              uint depth) {
+/* Tests the packets' frusta against a node's children and puts those that are entered on the stack.
+ */
+static inline void visit_node(const TraceScene* scene, const PacketStream* stream, uint index,
+                              uint packets, uint octant, bool mixed, PacketStack* stack) {
     global const Wide8Node* node = (global const Wide8Node*)scene->nodes + index;
     const WidePlanes planes = load_planes(node, octant);
     int8 found = 0;
@@ -55,10 +59,10 @@ static inline uint visit_node(const TraceScene* scene, const PacketStream* strea
         found |= enters & (int8)((int)(1u << k));
         nearest = enters ? m_min8(nearest, near) : nearest;
     } while (packets != 0u);
-    const uint end = push_packets(stack, depth, index, found, nearest);
-    for (; depth < end; ++depth)
-        fetch_child_single(scene, node->child[stack[depth].child & 7u]);
-    return end;
+    uint pushed = stack->depth;
+    push_packets(stack, node, index, found, nearest);
+    for (; pushed < stack->depth; ++pushed)
+        fetch_child_single(scene, stack->child[pushed]);
 }
 
 /* The packets with a lane that may enter a box. */
@@ -89,18 +93,17 @@ static inline void test_leaf_of_packets(const TraceScene* scene, const PacketIns
  * returns the packets, none when the stack is empty. That packets may be done is left to the box
  * tests: a mask of them would make every step wait for the hits of the last one. */
 static inline uint next_node(const TraceScene* scene, const PacketInstance* instance,
-                             PacketStream* stream, uint octant, bool mixed,
-                             const MaskedEntry* stack, uint* depth, uint* index) {
+                             PacketStream* stream, uint octant, bool mixed, PacketStack* stack,
+                             uint* index) {
     global const Wide8Node* nodes = (global const Wide8Node*)scene->nodes;
-    while (*depth != 0u) {
-        const uint top = --(*depth);
-        const uint packets = stack[top].mask;
-        global const Wide8Node* node = nodes + (stack[top].child >> 3);
-        const uint i = stack[top].child & 7u;
-        const int child = node->child[i];
+    while (stack->depth != 0u) {
+        const uint top = --stack->depth;
+        const uint packets = (uint)stack->packets[top];
+        const int child = stack->child[top];
+        const uint slot = (uint)stack->slot[top];
         const uint by_lane = child >= 0 ? packets & stream->wide : packets;
-        const uint left =
-            (packets & ~by_lane) | packets_in_box(stream, by_lane, mixed, octant, node, i);
+        const uint left = (packets & ~by_lane) | packets_in_box(stream, by_lane, mixed, octant,
+                                                                nodes + slot / 8u, slot % 8u);
         if (left == 0u)
             continue;
         if (child >= 0) {
@@ -116,11 +119,12 @@ static inline uint next_node(const TraceScene* scene, const PacketInstance* inst
 static inline void traverse_packets(const TraceScene* scene, const PacketInstance* instance,
                                     PacketStream* stream, int root, uint packets, uint octant,
                                     uint frustum_octant, bool mixed) {
-    MaskedEntry stack[MACULA_PACKET_STACK];
-    uint depth = 0u, index = (uint)root;
+    PacketStack stack;
+    stack.depth = 0u;
+    uint index = (uint)root;
     while (packets != 0u) {
-        depth = visit_node(scene, stream, index, packets, frustum_octant, mixed, stack, depth);
-        packets = next_node(scene, instance, stream, octant, mixed, stack, &depth, &index);
+        visit_node(scene, stream, index, packets, frustum_octant, mixed, &stack);
+        packets = next_node(scene, instance, stream, octant, mixed, &stack, &index);
     }
 }
 

@@ -16,6 +16,7 @@ typedef struct PacketInstance {
     float16 near; /* InstanceSpan.near of the lanes */
     uint first_triangle;
     uint mesh_triangle;
+    bool plain; /* small enough for plain hits (lib/plain_hit.h) */
 } PacketInstance;
 
 static inline float16 snap_tiny16(float16 x) {
@@ -97,12 +98,16 @@ static inline int16 keep_solid(const TraceScene* scene, uint slot, int16 hit, fl
 static inline bool finish_triangle(const TraceScene* scene, const PacketInstance* instance,
                                    Packet* p, PacketHit* best, global const Triangle* tri,
                                    const PacketEdges* e, int16 hit) {
-    const float16 inverse =
-        m_divide((float16)(1.0f), hit ? (e->wa + e->wb) + e->wc : (float16)(1.0f));
+    const float16 determinant = (e->wa + e->wb) + e->wc;
+    const float16 inverse = m_divide((float16)(1.0f), hit ? determinant : (float16)(1.0f));
     const float16 scaled_t =
         fma(e->wa, p->sz * e->az, fma(e->wb, p->sz * e->bz, e->wc * (p->sz * e->cz)));
     float16 t = -scaled_t * inverse;
-    hit = clamp_to_triangle(p, tri, hit, &t);
+    if (instance->plain && p->plain &&
+        !any_lane16(hit & (fabs(determinant) < MACULA_PLAIN_DETERMINANT)))
+        hit &= (t >= p->t_min) & (t <= p->t_max);
+    else
+        hit = clamp_to_triangle(p, tri, hit, &t);
     const uint id = tri->id & MACULA_ID_MASK;
     const uint16 triangle = instance->first_triangle + id;
 #if MACULA_INSTANCES
@@ -135,14 +140,14 @@ static inline bool finish_triangle(const TraceScene* scene, const PacketInstance
 static inline bool test_leaf16(const TraceScene* scene, const PacketInstance* instance, Packet* p,
                                PacketHit* best, int leaf) {
     const uint bits = (uint)~leaf;
-    global const Triangle* tri =
+    global const Triangle* first =
         (global const Triangle*)scene->triangles + (bits >> MACULA_LEAF_COUNT_BITS);
-    global const Triangle* end = tri + (bits & MACULA_LEAF_MAX);
+    global const Triangle* end = first + (bits & MACULA_LEAF_MAX);
     bool changed = false;
-    for (; tri != end; ++tri) {
-        /* Nearly always one turn: neighbouring rays have the same dominant axis. */
-        for (uint axes = p->axes; axes != 0u; axes &= axes - 1u) {
-            const uint kz = axes & 1u ? 0u : (axes & 2u ? 1u : 2u);
+    /* Nearly always one turn: neighbouring rays have the same dominant axis. */
+    for (uint axes = p->axes; axes != 0u; axes &= axes - 1u) {
+        const uint kz = axes & 1u ? 0u : (axes & 2u ? 1u : 2u);
+        for (global const Triangle* tri = first; tri != end; ++tri) {
             PacketEdges edges;
             int16 hit = cross_edges(p, tri, kz, &edges);
 #if MACULA_ANY_HIT

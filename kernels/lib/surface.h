@@ -16,6 +16,7 @@ typedef struct SurfacePoint {
     Real3 position;           /* world space, of this frame */
     Real offset;              /* distance to keep from the surface, world units */
     Real3 geometric_normal;   /* unit, towards the viewer's side */
+    Mask behind;              /* the viewer is on the side that the triangle's winding calls back */
     Real3 shading_normal;     /* unit, on the side of the geometric one; before normal mapping */
     Real3 tangent, bitangent; /* world vectors along rising u and v, unit; zero without uv */
     Real u, v;
@@ -73,6 +74,13 @@ typedef struct Placement {
     LaneMatrix world_from_object, object_from_world;
 } Placement;
 
+/* A placement that mirrors turns the winding of triangles around. */
+MACULA_ALWAYS_INLINE Mask mirrors(const Placement* placement) {
+    const LaneMatrix* m = &placement->world_from_object;
+    const Real volume = dot3(cross3(m->row[0], m->row[1]), m->row[2]);
+    return !placement->identity & (volume < splat(0.0f));
+}
+
 /* Edges and uv differences of a triangle. */
 typedef struct SurfaceEdges {
     Real3 e1, e2; /* world space */
@@ -119,6 +127,7 @@ MACULA_ALWAYS_INLINE void surface_normals(const SurfaceCorner* a, const SurfaceC
     const Real3 flat_normal = unit3(scaled_normal, unit3(neg3(direction), upwards));
     const Mask away = dot3(flat_normal, direction) > splat(0.0f);
     s->geometric_normal = select3(away, neg3(flat_normal), flat_normal);
+    s->behind = placement->moved ? away != mirrors(placement) : away;
     const Real weight_a = (1.0f - hit_u) - hit_v;
     const Real3 blended =
         scale_add3(a->normal, weight_a, scale_add3(b->normal, hit_u, scale3(c->normal, hit_v)));

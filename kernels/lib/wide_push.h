@@ -28,15 +28,6 @@ static inline void put_entry(MaskedEntry* stack, int place, uint child, int mask
     stack[place].mask = (uint)mask;
 }
 
-/* The places of the children above the top of a stack, that of the least key last, so on top: each
- * at the number of those that come after it. No branch waits for the tests: all eight are written,
- * and those which nothing enters end up above the new top. */
-static inline int8 push_places8(int8 key) {
-    return -(((int8)(key.s0) > key) + ((int8)(key.s1) > key) + ((int8)(key.s2) > key) +
-             ((int8)(key.s3) > key) + ((int8)(key.s4) > key) + ((int8)(key.s5) > key) +
-             ((int8)(key.s6) > key) + ((int8)(key.s7) > key));
-}
-
 static inline uint entered_children8(int8 masks) {
     return (uint)popcount(lane_mask8(masks != 0)) >> 3;
 }

@@ -29,12 +29,13 @@ static inline StreamRay stream_ray(const TraceRay* r, uint k) {
     return ray;
 }
 
-/* Moves the rays that enter an instance's world box into its space; returns their greatest reach,
- * and them by class. */
-static inline float enter_instance_of_rays(global const Instance* instance, StreamChunk* chunk,
-                                           uint rays, uint of_class[MACULA_STREAM_CLASSES]) {
+/* Moves the rays that enter an instance's world box into its space; returns their sizes but for the
+ * mesh's, and them by class. */
+static inline StreamSizes enter_instance_of_rays(global const Instance* instance,
+                                                 StreamChunk* chunk, uint rays,
+                                                 uint of_class[MACULA_STREAM_CLASSES]) {
     Stream* s = &chunk->stream;
-    float reach = 0x1p-20f;
+    StreamSizes sizes = {0x1p-20f, 0.0f, 0.0f};
     for (uint i = 0u; i < MACULA_STREAM_CLASSES; ++i)
         of_class[i] = 0u;
     for (; rays != 0u; rays &= rays - 1u) {
@@ -45,10 +46,11 @@ static inline float enter_instance_of_rays(global const Instance* instance, Stre
         const TraceRay r = transform_ray(instance, q->ox, q->oy, q->oz, q->dx, q->dy, q->dz,
                                          q->t_min, chunk->world[k].t_max);
         chunk->object[k] = stream_ray(&r, k);
-        reach = m_max(reach, m_max(m_max(fabs(r.ox), fabs(r.oy)), fabs(r.oz)));
+        sizes.reach = m_max(sizes.reach, m_max(m_max(fabs(r.ox), fabs(r.oy)), fabs(r.oz)));
+        sizes.speed = m_max(sizes.speed, m_divide(1.0f, fabs(r.sz)));
         of_class[r.octant * 3u + r.kz] |= 1u << k;
     }
-    return reach;
+    return sizes;
 }
 
 /* Returns the rays whose query is answered. */
@@ -57,15 +59,15 @@ static inline uint traverse_instance_of_rays(const TraceScene* scene, StreamChun
     global const Instance* instance = scene->instances + index;
     Stream* s = &chunk->stream;
     uint of_class[MACULA_STREAM_CLASSES];
-    const float reach = enter_instance_of_rays(instance, chunk, rays, of_class);
+    StreamSizes sizes = enter_instance_of_rays(instance, chunk, rays, of_class);
     s->first_triangle = instance->first_triangle;
     s->mesh_triangle = instance->mesh_triangle;
-    const float size = mesh_size((global const Wide8Node*)scene->nodes + instance->root);
+    sizes.mesh = mesh_size((global const Wide8Node*)scene->nodes + instance->root);
     uint answered = 0u;
     for (uint i = 0u; i < MACULA_STREAM_CLASSES; ++i) {
         if (of_class[i] == 0u)
             continue;
-        const StreamClass c = stream_class(i, reach, size);
+        const StreamClass c = stream_class(i, &sizes);
         StreamWalk walk[MACULA_STREAM_CHUNKS];
         start_walk(walk, instance->root, of_class[i]);
         start_walk(walk + 1, instance->root, 0u);

@@ -25,6 +25,7 @@ typedef struct Stream {
 typedef struct BlockHits {
     int16 hit;
     float16 t, u, v;
+    float16 determinant;
 } BlockHits;
 
 /* The vertices of a block, with the axes of a class, for two rays. */
@@ -76,7 +77,8 @@ static inline BlockHits hit_block(float16 first, float16 second, const BlockVert
     BlockHits h;
     /* An edge function that is not 0 makes the determinant not 0: all have one sign. */
     h.hit = (least < 0.0f) ^ (greatest > 0.0f);
-    const float16 inverse = m_divide((float16)(1.0f), h.hit ? (wa + wb) + wc : (float16)(1.0f));
+    h.determinant = (wa + wb) + wc;
+    const float16 inverse = m_divide((float16)(1.0f), h.hit ? h.determinant : (float16)(1.0f));
     h.t = fma(wa, sz * az, fma(wb, sz * bz, wc * (sz * cz))) * inverse;
     h.u = wb * inverse;
     h.v = wc * inverse;
@@ -131,13 +133,14 @@ static inline bool take_lane(const TraceScene* scene, Stream* s, uint k, uint id
     return answered;
 }
 
-/* Takes the hits of ray k on a block; returns its bit when the query is answered. */
-static inline uint take_hits(const TraceScene* scene, Stream* s, const StreamClass* c, uint k,
-                             global const TriangleBlock8* block, int8 hit, float8 t, float8 u,
-                             float8 v) {
-    if (lane_mask8(hit) == 0ul)
-        return 0u;
-    ulong lanes = lane_mask8(clamp_to_triangles8(s->ray + k, c, block, hit, &t));
+/* Takes the hits of ray k on a block; returns its bit when the query is answered. `plain`: all hits
+ * pass the boxes of their triangles. */
+static inline uint take_hits(const TraceScene* scene, Stream* s, const StreamClass* c, bool plain,
+                             uint k, global const TriangleBlock8* block, int8 hit, float8 t,
+                             float8 u, float8 v) {
+    ulong lanes = lane_mask8(hit);
+    if (lanes != 0ul && !plain)
+        lanes = lane_mask8(clamp_to_triangles8(s->ray + k, c, block, hit, &t));
     while (lanes != 0ul) {
         const uint i = first_lane8(lanes);
         lanes = without_lane8(lanes, i);
@@ -159,10 +162,13 @@ static inline uint test_block_of_stream(const TraceScene* scene, Stream* s, cons
         const BlockHits h = hit_block(s->ray[pair.first].row, s->ray[pair.second].row, &vertices);
         if (!any_lane16(h.hit))
             continue;
-        answered |= take_hits(scene, s, c, pair.first, block, h.hit.lo, h.t.lo, h.u.lo, h.v.lo);
+        const bool plain =
+            c->plain && !any_lane16(h.hit & (fabs(h.determinant) < MACULA_PLAIN_DETERMINANT));
+        answered |=
+            take_hits(scene, s, c, plain, pair.first, block, h.hit.lo, h.t.lo, h.u.lo, h.v.lo);
         if (pair.second != pair.first)
-            answered |=
-                take_hits(scene, s, c, pair.second, block, h.hit.hi, h.t.hi, h.u.hi, h.v.hi);
+            answered |= take_hits(scene, s, c, plain, pair.second, block, h.hit.hi, h.t.hi, h.u.hi,
+                                  h.v.hi);
     }
     return answered;
 }

@@ -4,6 +4,7 @@
 #ifndef MACULA_LIB_WIDE_STREAM_RAY_H
 #define MACULA_LIB_WIDE_STREAM_RAY_H
 
+#include "lib/plain_hit.h"
 #include "lib/ray16.h"
 #include "lib/traverse_wide8.h"
 #include "lib/wide_push.h"
@@ -50,33 +51,29 @@ typedef struct StreamClass {
     uint octant;
     uint kx, ky, kz;
     float pad[3]; /* what far planes are moved by, see far_plane8 */
+    bool plain;   /* hits are plain (lib/plain_hit.h) unless their determinant is small */
 } StreamClass;
 
 /* Classes of rays by octant and dominant axis. */
 #define MACULA_STREAM_CLASSES 24u
 
-/* `reach`: the greatest coordinate of the rays' origins in size, `size`: of the mesh's planes. */
-static inline StreamClass stream_class(uint index, float reach, float size) {
+/* The greatest sizes of components: of the rays' origins and directions, and of the mesh's planes.
+ */
+typedef struct StreamSizes {
+    float reach, speed, mesh;
+} StreamSizes;
+
+static inline StreamClass stream_class(uint index, const StreamSizes* sizes) {
     StreamClass c;
     c.octant = index / 3u;
     c.kz = index % 3u;
     c.kx = c.kz == 2u ? 0u : c.kz + 1u;
     c.ky = c.kx == 2u ? 0u : c.kx + 1u;
-    const float pad = fma(4.0f * MACULA_RAY_MARGIN, reach, 0x1p-19f * size);
+    const float pad = fma(4.0f * MACULA_RAY_MARGIN, sizes->reach, 0x1p-19f * sizes->mesh);
     for (uint axis = 0u; axis < 3u; ++axis)
         c.pad[axis] = ((c.octant >> axis) & 1u) != 0u ? -pad : pad;
+    c.plain = m_max(m_max(sizes->reach, sizes->speed), sizes->mesh) <= MACULA_PLAIN_SIZE;
     return c;
-}
-
-/* The greatest coordinate in size of a root's planes, so of all planes below it. */
-static inline float mesh_size(global const Wide8Node* root) {
-    float8 size = 0.0f;
-    for (uint axis = 0u; axis < 3u; ++axis) {
-        const float8 lo = vload8(0, root->plane[axis][0]), hi = vload8(0, root->plane[axis][1]);
-        const float8 own = m_max8(m_max8(-lo, hi), size);
-        size = lo <= hi ? own : size; /* an unused child is inside out */
-    }
-    return greatest_lane16(twice(size));
 }
 
 static inline float16 zip_lo(float16 a, float16 b) {

@@ -8,7 +8,7 @@
 /* The rays of a work-item, sorted by class. */
 typedef struct QueuedRays {
     StreamRay ray[MACULA_RAYS_PER_ITEM];
-    float reach; /* largest origin component in size of the active ones */
+    StreamSizes sizes; /* of the active ones */
 } QueuedRays;
 
 static inline uint queue_index(const StreamRay* ray) {
@@ -65,8 +65,8 @@ static inline void trace_class(const TraceScene* scene, global const RayBlock* r
                                uint begin, uint end, uint class_index, uint first,
                                global uint* results) {
     const int root = scene->instances[0].root;
-    const StreamClass c = stream_class(class_index, q->reach,
-                                       mesh_size((global const Wide8Node*)scene->nodes + root));
+    q->sizes.mesh = mesh_size((global const Wide8Node*)scene->nodes + root);
+    const StreamClass c = stream_class(class_index, &q->sizes);
     while (begin < end) {
         Stream s[MACULA_STREAM_CHUNKS];
         StreamWalk walk[MACULA_STREAM_CHUNKS];

@@ -10,6 +10,7 @@
 #include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/surface.h"
 #include "shared/weier.h"
 
 #define MACULA_STRUCT_LIST(STRUCT, MEMBER)                                                         \
@@ -82,6 +83,10 @@
     MEMBER(FrameParams, lod_bias)                                                                  \
     MEMBER(FrameParams, ambient)                                                                   \
     MEMBER(FrameParams, jitter)                                                                    \
+    STRUCT(SurfaceOptics)                                                                          \
+    MEMBER(SurfaceOptics, index_of_refraction)                                                     \
+    MEMBER(SurfaceOptics, transmission)                                                            \
+    MEMBER(SurfaceOptics, diffuse_part)                                                            \
     STRUCT(WeierParams)                                                                            \
     MEMBER(WeierParams, p_min)                                                                     \
     MEMBER(WeierParams, support_width)                                                             \

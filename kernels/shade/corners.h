@@ -87,4 +87,9 @@ MACULA_ALWAYS_INLINE Lane4 material_row(global const SurfaceMaterial* materials,
     return gather4((global const float4*)materials, material * 4u + row);
 }
 
+/* A SurfaceOptics is three float4. */
+MACULA_ALWAYS_INLINE Lane4 optics_row(global const SurfaceOptics* optics, Uint material, uint row) {
+    return gather4((global const float4*)optics, material * 3u + row);
+}
+
 #endif

@@ -97,7 +97,7 @@ typedef struct Received {
 } Received;
 
 /* Adds the light's unoccluded samples to the irradiance and, where specular materials exist, to
- * the highlight. */
+ * the highlight. `origin`: of each slot's ray; null: the camera's. */
 kernel void add_light(global const FrameParams* restrict frame, uint sample,
                       global const Light* restrict lights, uint light, uint pixel_row,
                       uint texel_row, global const uint* restrict noise,
@@ -106,7 +106,8 @@ kernel void add_light(global const FrameParams* restrict frame, uint sample,
                       global const float4* restrict position,
                       global const float4* restrict geometric_normal,
                       global const float4* restrict shading_normal,
-                      global const float4* restrict specular, global const uint* restrict occluded,
+                      global const float4* restrict specular,
+                      global const float4* restrict origin, global const uint* restrict occluded,
                       global float4* restrict irradiance, global float4* restrict highlight) {
     const uint count = batch_count(*queue_count, first);
     if (first_of_item() >= count)
@@ -115,7 +116,8 @@ kernel void add_light(global const FrameParams* restrict frame, uint sample,
     const Real3 from = gather4(position, e.slot).xyz;
     const Real3 above = gather4(geometric_normal, e.slot).xyz;
     const Real3 normal = gather4(shading_normal, e.slot).xyz;
-    const Real3 eye = splat_vector(vector_at(frame->camera.origin));
+    const Real3 eye = origin ? gather4(origin, e.slot).xyz
+                             : splat_vector(vector_at(frame->camera.origin));
     const Real3 to_viewer = unit3(sub3(eye, from), normal);
     const Real shininess = highlight ? gather4(specular, e.slot).w : splat(1.0f);
     const Rows rows = {pixel_row, texel_row};

@@ -10,7 +10,7 @@
 typedef struct SurfaceOutputs {
     global float* depth;
     global float4* position;         /* xyz, w: distance to keep from the surface */
-    global float4* geometric_normal; /* towards the viewer */
+    global float4* geometric_normal; /* towards the viewer; w: 1 on the back of a triangle */
     global float4* shading_normal;
     global float4* albedo;
     global float4* specular; /* w: shininess */
@@ -133,7 +133,7 @@ static inline void write_geometry(const SurfaceOutputs* out, const Hits* h, cons
                h->hit ? s->offset : zero);
     if (out->geometric_normal)
         store4(out->geometric_normal, h->first, select3(h->hit, s->geometric_normal, nothing),
-               zero);
+               (h->hit & s->behind) ? splat(1.0f) : zero);
     if (out->triangle)
         store_uints(out->triangle, h->first, h->hit ? h->triangle : none);
     if (out->material)
@@ -178,6 +178,16 @@ static inline Real spread_of(global const float* spreads, uint first,
     return pixels * frame->pixel_spread;
 }
 
+/* The width of the cone at the hit. Of a primary ray: t is the depth, with which it grows. Of a
+ * secondary one, which has unit direction: what it had at its origin and what the way adds. */
+static inline Real cone_width(const Hits* h, global const float* spreads,
+                              global const float4* throughput, global const float4* origin,
+                              global const FrameParams* frame) {
+    if (!origin)
+        return h->t * spread_of(spreads, h->first, frame);
+    return fma(h->t, load4(origin, h->first).w, load4(throughput, h->first).w);
+}
+
 /* One work-item for MACULA_LANES ray slots. */
 kernel void resolve_surface(
     global const FrameParams* restrict frame, global const RayBlock* restrict rays,
@@ -187,6 +197,7 @@ kernel void resolve_surface(
     global const SurfaceMaterial* restrict materials, global const ImageTexture* restrict textures,
     global const ImageLevel* restrict levels, global const uint* restrict texels,
     global const float* restrict decode, global const float* restrict spreads,
+    global const float4* restrict throughput, global const float4* restrict origin,
     global float* restrict depth, global float4* restrict position,
     global float4* restrict geometric_normal, global float4* restrict shading_normal,
     global float4* restrict albedo, global float4* restrict specular,
@@ -219,9 +230,8 @@ kernel void resolve_surface(
     SurfacePoint s;
     surface_point(&a, &b, &c, &placement, h.u, h.v, h.direction, &s);
     write_geometry(&out, &h, &s, of_hit);
-    /* t along a primary ray is the depth, and the cone's width grows with the depth. */
-    const Real spread = spread_of(spreads, first, frame);
-    const Real lod = surface_lod(&s, h.t * spread, h.direction) + frame->lod_bias;
+    const Real width = cone_width(&h, spreads, throughput, origin, frame);
+    const Real lod = surface_lod(&s, width, h.direction) + frame->lod_bias;
     const TextureTables tables = {textures, levels, texels, decode};
     write_material(&out, &h, &s, &tables, materials, of_hit, frame->background, lod);
     if (motion) {

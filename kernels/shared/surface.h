@@ -41,6 +41,19 @@ typedef struct SurfaceMaterial {
 } SurfaceMaterial;
 MACULA_ASSERT_SIZE(SurfaceMaterial, 64);
 
+/* What a material does besides Phong shading (lib/optics.h). One a material. */
+typedef struct SurfaceOptics {
+    float reflectivity[3]; /* weight of a mirrored ray at all angles */
+    float index_of_refraction;
+    float transmission[3]; /* weight that Fresnel's equations split into two rays */
+    uint pad;
+    /* Factor on the diffuse colour: where colour, reflectivity and transmission sum to more than
+     * one, less is left to be diffuse. */
+    float diffuse_part[3];
+    uint pad_diffuse;
+} SurfaceOptics;
+MACULA_ASSERT_SIZE(SurfaceOptics, 48);
+
 /* An image with its mip chain: levels first_level .. first_level + level_count - 1 of the level
  * table, finest first. wrap: u in bits 0..1, v in bits 2..3 (MACULA_WRAP_* of shared/mask.h).
  * decode: first entry of the decoding table, 0 for linear and 256 for sRGB bytes. */

@@ -54,7 +54,7 @@ kernel void trace(TRACE_ARGUMENTS) {
             packets |= 1u << k;
         }
     }
-    const PacketInstance instance = instance_of(instances);
+    const PacketInstance instance = instance_of(&scene, instances);
     for (uint i = 0u; i < (MACULA_ANY_HIT ? 32u : 16u); ++i)
         if (of_octant[i] != 0u)
             traverse_packets(&scene, &instance, &stream, instances[0].root, of_octant[i],

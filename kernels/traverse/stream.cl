@@ -7,9 +7,10 @@
 #define INACTIVE MACULA_STREAM_CLASSES
 #define BINS (MACULA_STREAM_CLASSES + 1u)
 
-/* The bins of a block of which `left` rays are in the queue. Raises the reach of the active ones.
- */
-static inline uchar16 bins_of(global const RayBlock* block, uint left, float16* reach) {
+/* The bins of a block of which `left` rays are in the queue. Raises the greatest components of the
+ * active ones' origins and directions in size. */
+static inline uchar16 bins_of(global const RayBlock* block, uint left, float16* reach,
+                              float16* speed) {
     const float16 dx = bounded_direction16(vload16(0, block->direction_x));
     const float16 dy = bounded_direction16(vload16(0, block->direction_y));
     const float16 dz = bounded_direction16(vload16(0, block->direction_z));
@@ -19,7 +20,9 @@ static inline uchar16 bins_of(global const RayBlock* block, uint left, float16* 
     const int16 active = (t_min >= 0.0f) & (t_min <= t_max) & (MACULA_LANES16 < (int16)((int)left));
     const float16 own = reach16(vload16(0, block->origin_x), vload16(0, block->origin_y),
                                 vload16(0, block->origin_z));
+    const float16 own_speed = reach16(dx, dy, dz);
     *reach = m_max(*reach, active ? own : *reach);
+    *speed = m_max(*speed, active ? own_speed : *speed);
     return convert_uchar16(active ? ray_class : (int16)((int)INACTIVE));
 }
 
@@ -28,10 +31,12 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
                              uint begin[BINS + 1u]) {
     uchar bin[MACULA_RAYS_PER_ITEM];
     uint next[BINS];
-    float16 reach = 0x1p-20f;
+    float16 reach = 0x1p-20f, speed = 0.0f;
     for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK)
-        vstore16(bins_of(blocks + i / MACULA_RAY_BLOCK, count - i, &reach), 0, bin + i);
-    q->reach = greatest_lane16(reach);
+        vstore16(bins_of(blocks + i / MACULA_RAY_BLOCK, count - i, &reach, &speed), 0,
+                 bin + i);
+    q->sizes.reach = greatest_lane16(reach);
+    q->sizes.speed = greatest_lane16(speed);
     for (uint b = 0u; b < BINS; ++b)
         next[b] = 0u;
     for (uint i = 0u; i < count; ++i)

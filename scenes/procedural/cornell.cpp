@@ -74,18 +74,12 @@ void standing_block(MeshBuilder& b, float height, const std::array<glm::vec2, 4>
         b.face({at(i, 0.0f), at(i + 1, 0.0f), at(i + 1, height), at(i, height)}, white);
 }
 
-} // namespace
-
-Scene make_cornell(const SceneParams&) {
+// The lamp, the light in the room and the published camera: focal length 0.035, image 0.025 x
+// 0.025.
+Scene empty_box() {
     Scene scene;
     scene.metres_per_unit = 0.001f;
     add_materials(scene);
-    MeshBuilder b("cornell_box");
-    room(b);
-    standing_block(b, 165.0f, {{{130, 65}, {82, 225}, {240, 272}, {290, 114}}});
-    standing_block(b, 330.0f, {{{423, 247}, {265, 296}, {314, 456}, {472, 406}}});
-    scene.meshes.push_back(b.take());
-
     Light lamp;
     lamp.kind = LightKind::rectangle;
     lamp.position = {278.0f, kCeiling - 0.25f, 279.5f};
@@ -96,8 +90,6 @@ Scene make_cornell(const SceneParams&) {
     lamp.attenuation_distance = 350.0f;
     scene.lights.push_back(lamp);
     scene.ambient = glm::vec3{0.12f, 0.1f, 0.07f};
-
-    // Focal length 0.035, image 0.025 x 0.025.
     scene.cameras.push_back({"published", {278, 273, -800}, {278, 273, 0}, {0, 1, 0}, 39.3077f});
     const std::array<Waypoint, 8> tour{{{{278, 273, -800}, {278, 273, 200}},
                                         {{180, 330, -350}, {300, 220, 300}},
@@ -108,6 +100,46 @@ Scene make_cornell(const SceneParams&) {
                                         {{460, 260, 60}, {160, 100, 280}},
                                         {{430, 160, -300}, {270, 200, 280}}}};
     scene.path = fly_through(tour, true);
+    return scene;
+}
+
+} // namespace
+
+Scene make_cornell(const SceneParams&) {
+    Scene scene = empty_box();
+    MeshBuilder b("cornell_box");
+    room(b);
+    standing_block(b, 165.0f, {{{130, 65}, {82, 225}, {240, 272}, {290, 114}}});
+    standing_block(b, 330.0f, {{{423, 247}, {265, 296}, {314, 456}, {472, 406}}});
+    scene.meshes.push_back(b.take());
+    return scene;
+}
+
+// The same box with a mirror on the left and a less reflective ball of glass on the right, as Mrad
+// (2022, section 5.1.1) has it.
+Scene make_cornell_spheres(const SceneParams&) {
+    constexpr glm::ivec2 kCells{128, 64};
+    Scene scene = empty_box();
+    Material mirror, glass;
+    mirror.name = "mirror";
+    mirror.diffuse = glm::vec3{0.04f};
+    mirror.specular = glm::vec3{0.5f};
+    mirror.shininess = 200.0f;
+    mirror.reflectivity = glm::vec3{0.9f};
+    glass.name = "glass";
+    glass.diffuse = glm::vec3{0.02f};
+    glass.specular = glm::vec3{0.4f};
+    glass.shininess = 200.0f;
+    glass.reflectivity = glm::vec3{0.06f};
+    glass.transmission = glm::vec3{0.9f};
+    glass.index_of_refraction = 1.5f;
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.insert(scene.materials.end(), {mirror, glass});
+    MeshBuilder b("cornell_spheres");
+    room(b);
+    sphere(b, {395.0f, 105.0f, 360.0f}, 105.0f, kCells, {first, 100.0f});
+    sphere(b, {160.0f, 95.0f, 195.0f}, 95.0f, kCells, {first + 1, 100.0f});
+    scene.meshes.push_back(b.take());
     return scene;
 }
 

@@ -17,6 +17,7 @@ constexpr std::array kScenes{
     Entry{"voxel_city", make_voxel_city},
     Entry{"city", make_city},
     Entry{"cornell", make_cornell},
+    Entry{"cornell_spheres", make_cornell_spheres},
     Entry{"whitted", make_whitted},
     Entry{"tunnel_geometry", make_tunnel_geometry},
     Entry{"tunnel_maps", make_tunnel_maps},

@@ -143,6 +143,38 @@ TEST_F(GraphTest, HistoryIsLastFramesAndZeroAtFirst) {
     EXPECT_EQ(graph.result("frames").read_one<std::uint32_t>(), 1u);
 }
 
+Stage writer_in(Log& log, const std::string& name, std::vector<std::string> reads,
+                const std::string& resource, std::uint64_t count = 1) {
+    Stage s = stage(log, name, std::move(reads), {});
+    s.writes = {{resource, 4, count, "place"}};
+    return s;
+}
+
+TEST_F(GraphTest, ResourcesOfOneStorageTakeTurnsInIt) {
+    graph.add(writer_in(log, "first", {}, "level 1"));
+    graph.add(writer_in(log, "second", {"level 1"}, "level 2"));
+    EXPECT_THAT([&] { graph.add(stage(log, "late", {"level 1"}, {"x"})); },
+                ThrowsMessage<GraphError>(AllOf(HasSubstr("late"), HasSubstr("level 2"))));
+    graph.add(stage(log, "shade", {"level 2"}, {"colour"}));
+    graph.compile(device, {"colour"});
+    EXPECT_EQ(graph.result("level 1").state().get(), graph.result("level 2").state().get());
+}
+
+TEST_F(GraphTest, ResourcesOfOneStorageHaveOneSize) {
+    graph.add(writer_in(log, "first", {}, "level 1"));
+    graph.add(writer_in(log, "second", {"level 1"}, "level 2", 2));
+    EXPECT_THAT([&] { graph.compile(device, {"level 2"}); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("level 2")));
+}
+
+TEST_F(GraphTest, HistoryHasItsOwnStorage) {
+    Stage first = writer_in(log, "first", {}, "level 1");
+    first.reads_last = {"level 2"};
+    graph.add(first).add(writer_in(log, "second", {"level 1"}, "level 2"));
+    EXPECT_THAT([&] { graph.compile(device, {"level 2"}); },
+                ThrowsMessage<GraphError>(AllOf(HasSubstr("level 1"), HasSubstr("level 2"))));
+}
+
 TEST_F(GraphTest, ScratchOfOneNameIsSharedAndAsLargeAsTheLargest) {
     Stage a = stage(log, "a", {}, {"x"}), b = stage(log, "b", {"x"}, {"y"});
     a.scratch = {{"rays", 4, 10}};

@@ -317,6 +317,31 @@ TEST_P(SimdVariants, FarFromTheOrigin) {
     check("camera", camera({3000, -2000, 4975}, 10, 0.6f));
 }
 
+// Around the sizes from which on, and the determinants from which down, boxes of triangles are
+// tested (kernels/lib/plain_hit.h).
+TEST_P(SimdVariants, TinyAndHugeScenes) {
+    for (const int exponent : {-45, -30, -20, 26, 27, 40, 48}) {
+        const float size = std::ldexp(1.0f, exponent);
+        scene::Scene scene = soup(500);
+        for (vec3& p : scene.meshes[0].positions)
+            p *= size;
+        open(scene);
+        for (const int faster : {-20, 0, 31}) {
+            std::vector<Ray> rays = camera({0.3f, 6, -25}, 10, 0.6f);
+            const std::vector<Ray> others = incoherent(300);
+            rays.insert(rays.end(), others.begin(), others.end());
+            for (Ray& r : rays) {
+                for (int axis = 0; axis < 3; ++axis) {
+                    r.origin[axis] *= size;
+                    r.direction[axis] = std::ldexp(r.direction[axis], faster);
+                }
+            }
+            check("size 2^" + std::to_string(exponent) + ", direction 2^" + std::to_string(faster),
+                  rays);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Variants, SimdVariants,
                          testing::Values("packet16", "packet_stream", "stream"),
                          [](const auto& param) { return std::string(param.param); });

@@ -27,6 +27,7 @@ struct WeierSetup {
     float lowres_scale = 0.46f;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    std::uint32_t depth = 0; // of reflected and refracted rays
 };
 
 class WeierFrames {
@@ -39,7 +40,8 @@ class WeierFrames {
           totals_(device.upload(std::span(kNoRays), "ray counts")),
           graph_(method::find_method(setup.method)
                      .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
-                            setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_},
+                            setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_,
+                            1, 0, 0, setup.depth},
                            {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
                             setup.temporal})) {
         std::set<std::string> outputs = setup.outputs;

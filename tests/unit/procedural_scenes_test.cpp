@@ -214,8 +214,8 @@ TEST_P(ProceduralScene, SameSeedGivesSameBytesAndAnotherSeedDiffers) {
     const Scene scene = *make(name, params_for(name));
     const std::uint64_t first = fingerprint(scene);
     EXPECT_EQ(fingerprint(*make(name, params_for(name))), first);
-    // These two have nothing random in them.
-    const bool constant = name == "cornell" || name == "whitted";
+    // These have nothing random in them.
+    const bool constant = name == "cornell" || name == "cornell_spheres" || name == "whitted";
     EXPECT_EQ(fingerprint(*make(name, params_for(name, 2))) == first, constant);
 }
 
@@ -238,15 +238,16 @@ TEST_P(ProceduralScene, IsWhole) {
 INSTANTIATE_TEST_SUITE_P(All, ProceduralScene,
                          testing::Values(Case{"atrium", 250e3, 25e3}, Case{"city", 770e3, 20e3},
                                          Case{"voxel_city", 47e3, 5e3}, Case{"cornell", 38, 0},
+                                         Case{"cornell_spheres", 32e3, 1e3},
                                          Case{"whitted", 73e3, 1e3},
                                          Case{"tunnel_geometry", 280e3, 5e3},
                                          Case{"tunnel_maps", 120e3, 2e3}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(ProceduralRegistry, NamesAreThoseThatAreTested) {
-    EXPECT_EQ(names(),
-              (std::vector<std::string_view>{"atrium", "voxel_city", "city", "cornell", "whitted",
-                                             "tunnel_geometry", "tunnel_maps"}));
+    EXPECT_EQ(names(), (std::vector<std::string_view>{"atrium", "voxel_city", "city", "cornell",
+                                                      "cornell_spheres", "whitted",
+                                                      "tunnel_geometry", "tunnel_maps"}));
 }
 
 TEST(ProceduralRegistry, UnknownNameGivesNothing) {
