@@ -31,6 +31,14 @@ constexpr std::array kEntries = {
     Entry{"measure the history's lag", StageGroup::cache_update},
     Entry{"update and merge the cache", StageGroup::merge},
     Entry{"post-process", StageGroup::post},
+    Entry{"place ", StageGroup::merge},
+    Entry{"follow surfaces", StageGroup::post},
+    Entry{"smooth over frames", StageGroup::post},
+    Entry{"split colour", StageGroup::post},
+    Entry{"upscale", StageGroup::post},
+    Entry{"sharpen", StageGroup::post},
+    Entry{"remap", StageGroup::merge},
+    Entry{"summarise texels", StageGroup::merge},
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "host/stage/primary.hpp"
 #include "host/stage/shade.hpp"
 #include "host/stage/surface.hpp"
+#include "host/stage/temporal.hpp"
 
 namespace macula::method {
 
@@ -15,6 +16,7 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options) {
         stage::primary_rays(kit),
         stage::trace_primary_rays(kit),
         stage::resolve_surface(kit),
+        stage::place_surfaces(kit),
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit),
         stage::shade(kit, !occlusion, occlusion),
     };

@@ -10,7 +10,14 @@ namespace {
 
 constexpr std::array kMethods = {
     Method{"full", "every pixel, any samples per pixel", make_full},
+    Method{"full+upscale", "the same at fewer pixels, enlarged over frames", make_full, false,
+           true},
     Method{"logpolar", "samples uniform in kernel log-polar space (Mrad 2022)", make_logpolar},
+    Method{"logpolar+taa", "the same, smoothed over frames", make_logpolar, true, false},
+    Method{"logpolar+upscale", "the same at fewer pixels, enlarged over frames", make_logpolar,
+           false, true},
+    Method{"logpolar+taa+upscale", "the same at fewer pixels, smoothed and enlarged over frames",
+           make_logpolar, true, true},
     Method{"logrect", "samples uniform in log-rectilinear space (Li et al. 2021)", make_logrect},
     Method{"lowres", "uniform lower resolution, enlarged by a bicubic filter", make_lowres},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/method/method.hpp"
+#include "host/stage/temporal.hpp"
 
 namespace macula::method {
 namespace {
@@ -54,6 +55,20 @@ const char* Method::picture() const {
 frame::Graph Method::make(const stage::Kit& kit, const Options& options) const {
     frame::Graph graph = base(kit, options);
     graph.rename(name, purpose);
+    if (!antialiased && !upscaled)
+        return graph;
+    const std::vector<std::string> made = graph.resources();
+    const bool foveated = std::find(made.begin(), made.end(), "fovea") != made.end();
+    const TemporalOptions& t = options.temporal;
+    const stage::TemporalKit temporal{kit,      foveated,     antialiased,
+                                      upscaled, t.frame_rate, t.sharpness};
+    graph.add(stage::follow_surfaces(temporal));
+    if (antialiased)
+        graph.add(stage::antialias(temporal));
+    else
+        graph.add(stage::split_colour(temporal));
+    if (upscaled)
+        graph.add(stage::upscale(temporal));
     return graph;
 }
 

@@ -55,8 +55,10 @@ kernel void place_fovea(global const FrameParams* restrict frame,
     fovea->radius = radius;
     fovea->inner = radius >= far ? far + 1.0f : radius * (1.0f - params->fade);
     fovea->pad = 0u;
-    /* What surrounds the disk is read between three columns. */
-    const float first = log_polar_column(params, fovea, fovea->inner) - 2.0f;
+    /* What surrounds the disk is read between three columns; jitter shifts them by up to a half. */
+    const bool jittered = frame->jitter[0] != 0.0f || frame->jitter[1] != 0.0f;
+    const float first =
+        log_polar_column(params, fovea, fovea->inner) - (jittered ? 3.0f : 2.0f);
     fovea->first_column = radius >= far ? params->width : (first > 0.0f ? (uint)first : 0u);
 }
 

@@ -101,6 +101,29 @@ static inline int8 compressed8(int8 v, int8 keep) {
 }
 #endif
 
+/* Lane lane[i] mod 16 of v in lane i. */
+#if defined(__AVX512F__)
+typedef float NativeFloat16 __attribute__((vector_size(64)));
+typedef int NativeInt16 __attribute__((vector_size(64)));
+
+static inline float16 permuted16(float16 v, int16 lane) {
+    return __builtin_astype(
+        __builtin_ia32_permvarsf512(__builtin_astype(v, NativeFloat16),
+                                    __builtin_astype(lane, NativeInt16)),
+        float16);
+}
+#else
+static inline float16 permuted16(float16 v, int16 lane) {
+    float from[16], to[16];
+    int of[16];
+    vstore16(v, 0, from);
+    vstore16(lane, 0, of);
+    for (uint i = 0u; i < 16u; ++i)
+        to[i] = from[of[i] & 15];
+    return vload16(0, to);
+}
+#endif
+
 static inline int8 exchanged8(int8 v, int8 other, int8 takes_greater) {
     const int8 less = v < other ? v : other, greater = v < other ? other : v;
     return takes_greater ? greater : less;

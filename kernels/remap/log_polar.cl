@@ -98,7 +98,10 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
         return;
     const Real kept = m_max(distance, splat(fovea->inner));
     Taps taps;
-    put_taps(log_polar_column(params, fovea, kept), log_polar_row(params, x, y), params, &taps);
+    /* The samples lie in the buffer where the frame's jitter put them. */
+    const Real column = log_polar_column(params, fovea, kept) - frame->jitter[0];
+    put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
+             log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
     float4 sums[MACULA_LANES];
     for (uint lane = 0u; lane < MACULA_LANES; ++lane)
         sums[lane] = read_taps(buffer, &taps, lane);

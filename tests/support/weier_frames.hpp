@@ -27,45 +27,62 @@ struct WeierSetup {
     float lowres_scale = 0.46f;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    bool jitter = true; // where the method has it
+    std::uint32_t samples_per_pixel = 1;
+    frame::GeometryOptions geometry;
     std::uint32_t depth = 0; // of reflected and refracted rays
 };
 
 class WeierFrames {
   public:
     WeierFrames(const compute::Device& on, const scene::Scene& scene, const WeierSetup& setup)
-        : device(on), setup_(setup), geometry_(device, scene, {}),
-          surfaces_(device, scene, geometry_.parts()),
+        : device(on), setup_(setup), method_(method::find_method(setup.method)),
+          size_(method_.render_size(setup.width, setup.height, setup.temporal)),
+          geometry_(device, scene, setup.geometry), surfaces_(device, scene, geometry_.parts()),
           tracer_(device, library_, geometry_, stage::choose_variants(device)),
           lights_(frame::make_lights(scene, setup.lights, setup.samples)),
           totals_(device.upload(std::span(kNoRays), "ray counts")),
-          graph_(method::find_method(setup.method)
-                     .make({device, library_, geometry_, surfaces_, tracer_, setup.width,
-                            setup.height, lights_, occlusion() ? setup.samples : 0, false, totals_,
-                            1, 0, 0, setup.depth},
-                           {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
-                            setup.temporal})) {
+          graph_(method_.make(
+              {device, library_, geometry_, surfaces_, tracer_, size_.width, size_.height, lights_,
+               occlusion() ? setup.samples : 0, false, totals_, 1, setup.width, setup.height,
+               setup.depth},
+              {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar, setup.temporal})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
+        outputs.insert(method_.picture());
         graph_.compile(device, outputs);
     }
 
     // `gaze`: world space; straight ahead without one.
     void run(std::uint32_t frame, const scene::Camera& view, const frame::Gaze& gaze = {}) {
         frame::FrameSettings s;
-        s.width = setup_.width;
-        s.height = setup_.height;
+        s.width = size_.width;
+        s.height = size_.height;
+        s.samples_per_pixel = setup_.samples_per_pixel;
+        if (setup_.jitter)
+            s.jitter_phases = method_.jitter_phases(setup_.width, setup_.temporal);
         s.light_count = static_cast<std::uint32_t>(lights_.size());
         s.ambient_occlusion_samples = occlusion() ? setup_.samples : 0;
         for (float& ambient : s.ambient)
             ambient = occlusion() ? 1.0f : 0.2f;
         const auto tangents = setup_.tangents.value_or(
-            frame::tangents_of(view.vertical_fov_degrees, s.width, s.height));
+            frame::tangents_of(view.vertical_fov_degrees, setup_.width, setup_.height));
         const shared::Camera camera = frame::make_camera(view, tangents);
         params = frame::make_params(s, frame, camera, last_, gaze);
         last_ = camera;
         graph_.execute(params);
         device.finish();
     }
+
+    // The next frame is a first one.
+    void forget() {
+        last_.reset();
+        graph_.forget();
+    }
+    void place(std::span<const scene::Transform> world_from_object) {
+        geometry_.set_transforms(world_from_object);
+    }
+    const char* picture() const { return method_.picture(); }
 
     template <class T>
     std::vector<T> read(const std::string& name) const {
@@ -87,6 +104,8 @@ class WeierFrames {
     bool occlusion() const { return setup_.lights == frame::LightMode::ambient_occlusion; }
 
     WeierSetup setup_;
+    const method::Method& method_;
+    method::Size size_;
     kernel::Library library_;
     frame::DeviceGeometry geometry_;
     frame::DeviceSurfaces surfaces_;

@@ -1,0 +1,196 @@
+#include "host/stage/temporal.hpp"
+
+#include <algorithm>
+
+#include "shared/planes.h"
+
+namespace macula::stage {
+namespace {
+
+// Strips of an image, one a work-item.
+compute::Range strips(const Kit& kit, std::uint32_t width, std::uint32_t height) {
+    const std::uint64_t across = (width + kit.lanes - 1) / kit.lanes;
+    return {compute::Range::cover(across * height, kGroup / kit.lanes)};
+}
+
+compute::Range rendered_strips(const Kit& kit) {
+    return strips(kit, kit.width, kit.height);
+}
+
+frame::Resource planes(const Kit& kit, const std::string& name, std::uint32_t count) {
+    return {name, 4 * count, kit.pixels()};
+}
+
+// `texels`: where samples that belong to no pixel go; empty: there are none.
+frame::Stage place(const Kit& kit, const frame::Resource& to, const std::string& texels) {
+    frame::Stage stage;
+    stage.name = "place surfaces";
+    stage.reads = {"ray count", "pixel of slot", "surface depth", "surface motion"};
+    stage.writes = {to};
+    stage.prepare = [kit, to, texels, name = stage.name] {
+        auto kernel = kit.library.kernel(kernel::VariantKey("upscale/surfaces"), "place_surfaces",
+                                         kit.device);
+        return [=](frame::Run& run) mutable {
+            if (run.sample() != 0)
+                return;
+            const compute::Buffer none;
+            kernel
+                .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
+                     run["surface depth"], run["surface motion"], run[to.name],
+                     texels.empty() ? none : run[texels])
+                .launch(name, {kit.slots()}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+std::uint32_t beyond_disk(const TemporalKit& kit) {
+    if (!kit.foveated)
+        return MACULA_BEYOND_NOTHING;
+    return kit.antialiased ? MACULA_BEYOND_SMOOTH : MACULA_BEYOND_GATHER;
+}
+
+std::string upscaled_from(const TemporalKit& kit) {
+    return kit.antialiased ? "stable planes" : "colour planes";
+}
+
+} // namespace
+
+frame::Stage place_surfaces(const Kit& kit) {
+    return place(kit, planes(kit, "surface planes", MACULA_SURFACE_PLANES), "");
+}
+
+frame::Stage place_surfaces(const LogPolarKit& kit) {
+    const std::string texels = "log-polar surface";
+    frame::Stage stage =
+        place(kit.kit, planes(kit.kit, "sampled surfaces", MACULA_SURFACE_PLANES), texels);
+    stage.writes.push_back({texels, 16, kit.buffer->texels()});
+    return stage;
+}
+
+frame::Stage remap_surfaces(const LogPolarKit& kit) {
+    frame::Stage stage;
+    stage.name = "remap surfaces";
+    stage.reads = {"fovea", "sampled surfaces", "log-polar surface", "log-polar colour", "colour"};
+    stage.writes = {planes(kit.kit, "surface planes", MACULA_FOVEATED_PLANES)};
+    stage.scratch = {{"texel ranges", 8, kit.buffer->texels()},
+                     {"texel motions", 16, kit.buffer->texels()}};
+    stage.prepare = [kit, name = stage.name] {
+        kit.buffer->prepare(kit.kit);
+        auto summarise = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar_surface"),
+                                                "summarise_texels", kit.kit.device);
+        auto remap = kit.kit.lane_kernel("remap/log_polar_surface", "remap_surfaces");
+        return [=](frame::Run& run) mutable {
+            const shared::LogPolarParams& p = kit.buffer->params();
+            summarise
+                .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
+                     run["log-polar surface"], run.scratch("texel ranges"),
+                     run.scratch("texel motions"))
+                .launch("summarise texels",
+                        {compute::Range::cover(std::uint64_t{p.width} * p.height, kGroup)},
+                        {kGroup});
+            remap
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
+                     run.scratch("texel ranges"), run.scratch("texel motions"),
+                     run["sampled surfaces"], run["surface planes"])
+                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+frame::Stage follow_surfaces(const TemporalKit& kit) {
+    frame::Stage stage;
+    stage.name = "follow surfaces";
+    stage.reads = {"surface planes"};
+    stage.reads_last = {"depth range"};
+    stage.writes = {planes(kit.kit, "depth range", 2), planes(kit.kit, "followed motion", 2)};
+    stage.prepare = [kit, name = stage.name] {
+        auto kernel = kit.kit.lane_kernel("upscale/follow", "follow_surfaces");
+        return [=](frame::Run& run) mutable {
+            kernel
+                .set(run.params_buffer(), static_cast<std::uint32_t>(kit.foveated),
+                     run["surface planes"], run.last("depth range"), run["depth range"],
+                     run["followed motion"])
+                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+frame::Stage antialias(const TemporalKit& kit) {
+    frame::Stage stage;
+    stage.name = "smooth over frames";
+    stage.reads = {"colour", "surface planes", "followed motion", "fovea"};
+    stage.reads_last = {"stable planes"};
+    stage.writes = {planes(kit.kit, "stable planes", MACULA_COLOUR_PLANES),
+                    per_pixel(kit.kit, "stable colour", 16)};
+    stage.prepare = [kit, name = stage.name] {
+        auto kernel = kit.kit.lane_kernel("upscale/antialias", "antialias");
+        return [=](frame::Run& run) mutable {
+            const compute::Buffer none;
+            kernel
+                .set(run.params_buffer(), kit.frame_rate, kit.upscaled ? run["fovea"] : none,
+                     run["colour"], run["surface planes"], run["followed motion"],
+                     run.last("stable planes"), run["stable planes"], run["stable colour"])
+                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+frame::Stage split_colour(const TemporalKit& kit) {
+    frame::Stage stage;
+    stage.name = "split colour";
+    stage.reads = {"colour"};
+    stage.writes = {planes(kit.kit, "colour planes", 3)};
+    stage.prepare = [kit, name = stage.name] {
+        auto kernel = kit.kit.lane_kernel("upscale/antialias", "split_colour");
+        return [=](frame::Run& run) mutable {
+            kernel.set(kit.kit.width, kit.kit.height, run["colour"], run["colour planes"])
+                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+frame::Stage upscale(const TemporalKit& kit) {
+    const std::uint32_t width = kit.kit.picture_width(), height = kit.kit.picture_height();
+    const std::uint64_t pixels = std::uint64_t{width} * height;
+    frame::Stage stage;
+    stage.name = "upscale";
+    stage.reads = {upscaled_from(kit), "surface planes", "followed motion"};
+    stage.reads_last = {"upscaled planes"};
+    if (kit.foveated) {
+        stage.reads.emplace_back("fovea");
+        stage.reads_last.emplace_back("fovea");
+    }
+    stage.writes = {{"upscaled planes", 4 * MACULA_COLOUR_PLANES, pixels},
+                    {"upscaled colour", 16, pixels}};
+    stage.prepare = [=, name = stage.name] {
+        auto upscale = kit.kit.lane_kernel("upscale/upscale", "upscale");
+        auto sharpen = kit.kit.lane_kernel("upscale/sharpen", "sharpen");
+        // What is as large as before needs no sharpening.
+        const float ratio = static_cast<float>(width) / static_cast<float>(kit.kit.width);
+        const float strength = kit.sharpness * std::min(ratio - 1.0f, 1.0f);
+        const compute::Range range = strips(kit.kit, width, height);
+        return [=](frame::Run& run) mutable {
+            const compute::Buffer none;
+            const compute::Buffer& colours = run[upscaled_from(kit)];
+            const compute::Buffer fovea = kit.foveated ? run["fovea"] : none;
+            upscale
+                .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
+                     kit.foveated ? run.last("fovea") : none, colours, run["surface planes"],
+                     run["followed motion"], run.last("upscaled planes"), run["upscaled planes"],
+                     run["upscaled colour"])
+                .launch(name, range, kit.kit.lane_group());
+            sharpen
+                .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea, colours,
+                     run["upscaled planes"], run["upscaled colour"])
+                .launch("sharpen", range, kit.kit.lane_group());
+        };
+    };
+    return stage;
+}
+
+} // namespace macula::stage

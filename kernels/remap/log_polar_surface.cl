@@ -1,0 +1,152 @@
+/* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where
+ * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's
+ * for others there: motion is the mean over the samples around a pixel, depth their range. */
+#include "lib/camera.h"
+#include "lib/log_polar.h"
+#include "lib/strip.h"
+#include "shared/planes.h"
+#include "shared/surface.h"
+#include "upscale/fovea.h"
+
+static inline float luminance(float4 c) {
+    return fma(c.x, 0.2126f, fma(c.y, 0.7152f, c.z * 0.0722f));
+}
+
+/* Of three by three texels. */
+typedef struct Sums {
+    float least, most;                 /* depths */
+    float light, squares, count;       /* of their luminance */
+    float motion_x, motion_y, movable; /* of those that were in view */
+} Sums;
+
+static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
+    const float light = luminance(colour);
+    sums->least = m_min(sums->least, surface.x);
+    sums->most = m_max(sums->most, surface.x);
+    sums->light = sums->light + light;
+    sums->squares = fma(light, light, sums->squares);
+    sums->count = sums->count + 1.0f;
+    if (fabs(surface.y) < MACULA_NO_MOTION && fabs(surface.z) < MACULA_NO_MOTION) {
+        sums->motion_x = sums->motion_x + surface.y;
+        sums->motion_y = sums->motion_y + surface.z;
+        sums->movable = sums->movable + 1.0f;
+    }
+}
+
+/* One work-item a texel. ranges: the least and the greatest depth of three by three texels;
+ * motions: their mean, the deviation of the luminance, 1. Texels without a sample have colours
+ * whose alpha is 0. */
+kernel void summarise_texels(global const LogPolarParams* restrict params,
+                             global const Fovea* restrict fovea,
+                             global const float4* restrict colours,
+                             global const float4* restrict surfaces,
+                             global float2* restrict ranges, global float4* restrict motions) {
+    const uint texel = (uint)get_global_id(0), row = texel / params->width;
+    const uint column = texel % params->width;
+    if (row >= params->height || column < fovea->first_column)
+        return;
+    Sums sums = {MACULA_BACKGROUND_DEPTH, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    for (uint k = 0u; k < 9u; ++k) {
+        const uint i = column + k % 3u; /* a row begins with an empty texel */
+        const uint j = (row + params->height + k / 3u - 1u) % params->height;
+        const uint at = j * params->pitch + i;
+        if (i > fovea->first_column && i <= params->width && colours[at].w > 0.0f)
+            add_texel(&sums, colours[at], surfaces[at]);
+    }
+    const float share = m_divide(1.0f, m_max(sums.count, 1.0f)), mean = sums.light * share;
+    const float variance = fma(-mean, mean, sums.squares * share);
+    const float spread = variance > 1e-12f ? m_sqrt(variance) : 0.0f;
+    const float moved = m_divide(1.0f, m_max(sums.movable, 1.0f));
+    const uint to = row * params->pitch + column + 1u;
+    ranges[to] = (float2)(sums.least, sums.most);
+    motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
+                           sums.movable > 0.0f ? 1.0f : 0.0f);
+}
+
+/* Where a strip's pixels lie in the buffer: in texels, 0 being the middle of the first one. */
+typedef struct Place {
+    Real column, row;
+} Place;
+
+static inline Place place_in_buffer(global const FrameParams* frame,
+                                    global const LogPolarParams* params, global const Fovea* fovea,
+                                    Real x, Real y, Real distance) {
+    const Real last = splat((float)(params->width - 1u)), half_texel = splat(0.5f);
+    const Real first = splat((float)min(fovea->first_column, params->width - 1u));
+    const Real column = log_polar_column(params, fovea, distance) - splat(frame->jitter[0]);
+    const Place p = {clamped(column - half_texel, first, last),
+                     log_polar_row(params, x, y) - splat(frame->jitter[1]) - half_texel};
+    return p;
+}
+
+/* The index of a texel; the buffer goes on around the gaze. */
+static inline Uint texel_at(global const LogPolarParams* params, Int column, Int row) {
+    const Int rows = splat_int((int)params->height);
+    const Int below = row < 0 ? row + rows : row;
+    const Int kept = below >= rows ? below - rows : below;
+    return int_to_uint(kept * (int)params->pitch + column + 1);
+}
+
+/* Between two by two texels; those without motion count nothing, and none at all: no motion. */
+static inline Lane4 motion_at(global const LogPolarParams* params, global const float4* motions,
+                              const Place* p) {
+    const Real left = floor(p->column), top = floor(p->row);
+    const Real to_x = p->column - left, to_y = p->row - top;
+    const Int column = to_int(left), row = to_int(top);
+    const Int right = min(column + 1, splat_int((int)params->width - 1));
+    const Real one = splat(1.0f);
+    const Real weights[4] = {(one - to_x) * (one - to_y), to_x * (one - to_y), (one - to_x) * to_y,
+                             to_x * to_y};
+    Lane4 sum = {splat_vector(splat3(0.0f)), splat(0.0f)};
+    for (int k = 0; k < 4; ++k) {
+        const Lane4 texel =
+            gather4(motions, texel_at(params, (k & 1) == 0 ? column : right, row + (k >> 1)));
+        const Real weight = weights[k] * texel.w;
+        sum.xyz = scale_add3(texel.xyz, weight, sum.xyz);
+        sum.w = sum.w + weight;
+    }
+    const Mask known = sum.w > splat(1e-3f);
+    const Real share = m_divide(one, known ? sum.w : one), none = splat(MACULA_NO_MOTION);
+    sum.xyz.x = known ? sum.xyz.x * share : none;
+    sum.xyz.y = known ? sum.xyz.y * share : none;
+    sum.xyz.z = sum.xyz.z * share;
+    return sum;
+}
+
+/* One work-item a strip. sampled_planes: depth and motion of the disk. */
+kernel void remap_surfaces(global const FrameParams* restrict frame,
+                           global const LogPolarParams* restrict params,
+                           global const Fovea* restrict fovea, global const float2* restrict ranges,
+                           global const float4* restrict motions,
+                           global const float* restrict sampled_planes,
+                           global float* restrict planes) {
+    const Strip s = strip_of_item(frame->width, frame->height);
+    if (s.y >= s.height)
+        return;
+    const uint pixels = frame->width * frame->height;
+    const Real distance = distance_to_gaze(fovea, &s);
+    const Mask sampled = distance < splat(fovea->radius);
+    const Real own = plane_at(sampled_planes + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
+    Real motion_x = plane_at(sampled_planes + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
+    Real motion_y = plane_at(sampled_planes + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
+    Real least = own, most = own, spread = splat(0.0f);
+    if (any_lane(strip_inside(&s) & (distance >= splat(fovea->radius)))) {
+        const Real x = strip_middles(&s) - splat(fovea->x);
+        const Real y = splat(((float)s.y + 0.5f) - fovea->y);
+        const Place p = place_in_buffer(frame, params, fovea, x, y,
+                                        m_max(distance, splat(fovea->inner)));
+        const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
+        const Lane4 motion = motion_at(params, motions, &p);
+        least = sampled ? least : MACULA_GATHER(float, ranges, nearest, .x);
+        most = sampled ? most : MACULA_GATHER(float, ranges, nearest, .y);
+        spread = sampled ? spread : motion.xyz.z;
+        motion_x = sampled ? motion_x : motion.xyz.x;
+        motion_y = sampled ? motion_y : motion.xyz.y;
+    }
+    store_plane(planes + MACULA_PLANE_DEPTH * pixels, &s, least);
+    store_plane(planes + MACULA_PLANE_MOTION_X * pixels, &s, motion_x);
+    store_plane(planes + MACULA_PLANE_MOTION_Y * pixels, &s, motion_y);
+    store_plane(planes + MACULA_PLANE_LEAST * pixels, &s, least);
+    store_plane(planes + MACULA_PLANE_MOST * pixels, &s, most);
+    store_plane(planes + MACULA_PLANE_SPREAD * pixels, &s, spread);
+}

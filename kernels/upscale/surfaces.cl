@@ -1,0 +1,25 @@
+/* Depth and motion of samples on their way from slots to pixels. */
+#include "lib/camera.h"
+#include "shared/planes.h"
+
+/* One work-item a slot. Samples of pixels go to the planes; others, of kernel log-polar foveation,
+ * to its texels: depth, motion, 1. */
+kernel void place_surfaces(global const FrameParams* restrict frame,
+                           global const uint* restrict ray_count,
+                           global const uint* restrict places, global const float* restrict depths,
+                           global const float2* restrict motions, global float* restrict planes,
+                           global float4* restrict texels) {
+    const uint slot = (uint)get_global_id(0);
+    if (slot >= *ray_count || places[slot] == MACULA_NO_PIXEL)
+        return;
+    const uint pixels = frame->width * frame->height, place = places[slot];
+    const float depth = depths[slot];
+    const float2 motion = motions[slot];
+    if (place < pixels) {
+        planes[MACULA_PLANE_DEPTH * pixels + place] = depth;
+        planes[MACULA_PLANE_MOTION_X * pixels + place] = motion.x;
+        planes[MACULA_PLANE_MOTION_Y * pixels + place] = motion.y;
+    } else {
+        texels[place - pixels] = (float4)(depth, motion, 1.0f);
+    }
+}

@@ -1,0 +1,168 @@
+/* Temporal upscaling: the picture gathers the samples of many frames of fewer pixels, whose jitter
+ * puts them in ever other places (Yang et al. 2009 and 2020; Karis 2014). */
+#include "lib/camera.h"
+#include "lib/footprint.h"
+#include "shared/planes.h"
+#include "shared/surface.h"
+#include "upscale/current.h"
+#include "upscale/fovea.h"
+#include "upscale/neighbours.h"
+
+#define MOVING_WORTH 4.0f /* samples that a colour can be worth while the view moves ... */
+#define STILL_WORTH 64.0f /* ... and while it stands still */
+/* What the picture is worth that is but interpolated, where no sample lies near. */
+#define GUESS 0.1f
+
+/* What this frame's samples say of a pixel of the picture. */
+typedef struct Current {
+    Real3 sum;    /* of the samples within a pixel of it, by their weights */
+    Real weight;  /* 0..1 */
+    Real3 smooth; /* between all samples around it */
+    Neighbours around;
+} Current;
+
+static inline Current find_current(global const float* planes, uint pixels, const Source* s,
+                                   float ratio_x, float ratio_y) {
+    const Weights3 across = quadratic_weights(s->to_x), down = quadratic_weights(s->to_y);
+    const Weights3 near_x = tent_weights(s->to_x, ratio_x);
+    const Weights3 near_y = tent_weights(s->to_y, ratio_y);
+    const Real3 nothing = splat_vector(splat3(0.0f));
+    const Real zero = splat(0.0f);
+    Current c;
+    c.sum = c.smooth = nothing;
+    c.weight = zero;
+    c.around = no_neighbours();
+    for (uint k = 0u; k < 9u; ++k) {
+        const int i = (int)(k % 3u), j = (int)(k / 3u);
+        const Real3 sample = make3(source_at(planes, s, i - 1, j - 1),
+                                   source_at(planes + pixels, s, i - 1, j - 1),
+                                   source_at(planes + 2u * pixels, s, i - 1, j - 1));
+        const Real weight = near_x.w[i] * near_y.w[j];
+        c.sum = scale_add3(sample, weight, c.sum);
+        c.weight = c.weight + weight;
+        c.smooth = scale_add3(sample, across.w[i] * down.w[j], c.smooth);
+        add_neighbour(&c.around, sample);
+    }
+    c.smooth = make3(m_max(c.smooth.x, zero), m_max(c.smooth.y, zero), m_max(c.smooth.z, zero));
+    weigh_nine(&c.around);
+    return c;
+}
+
+/* The picture of the last frame. */
+typedef struct Past {
+    Real3 colour;
+    Real worth; /* 0: nothing */
+} Past;
+
+static inline Past find_past(global const float* picture, uint pixels, const Footprint* f,
+                             Mask wanted) {
+    const CubicWeights across = cubic_weights_of(f->to_x), down = cubic_weights_of(f->to_y);
+    const Real worth = nearest_tap(picture + MACULA_PLANE_WORTH * pixels, f);
+    Past p;
+    p.colour = make3(plane_between(picture, f, &across, &down).value,
+                     plane_between(picture + pixels, f, &across, &down).value,
+                     plane_between(picture + 2u * pixels, f, &across, &down).value);
+    const Mask sound = wanted & (worth > splat(0.0f)) & (worth <= splat(STILL_WORTH)) &
+                       (fabs(p.colour.x) < splat(1e30f)) & (fabs(p.colour.y) < splat(1e30f)) &
+                       (fabs(p.colour.z) < splat(1e30f));
+    p.worth = sound ? worth : splat(0.0f);
+    p.colour = select3(sound, p.colour, splat_vector(splat3(0.0f)));
+    return p;
+}
+
+/* Last frame's place of a strip. */
+typedef struct Place {
+    Real x, y;     /* pixels of the picture */
+    Mask wanted;   /* it had one */
+    Real speed;    /* the larger component, pixels of the picture */
+} Place;
+
+static inline Place find_place(global const float* followed, uint pixels, const Strip* s,
+                               const Source* source, float ratio_x, float ratio_y) {
+    const Real motion_x = source_at(followed, source, 0, 0);
+    const Real motion_y = source_at(followed + pixels, source, 0, 0);
+    const Real x = motion_x * splat(ratio_x), y = motion_y * splat(ratio_y);
+    Place p;
+    p.x = strip_middles(s) + x;
+    p.y = ((float)s->y + 0.5f) + y;
+    p.wanted = strip_inside(s) & (motion_x < splat(MACULA_NO_MOTION)) & (p.x > splat(0.0f)) &
+               (p.y > splat(0.0f)) & (p.x < splat((float)s->width)) &
+               (p.y < splat((float)s->height));
+    p.speed = m_max(fabs(x), fabs(y));
+    return p;
+}
+
+/* Within the disk, and so far around it that what is in it finds neighbours. */
+static inline Mask in_disk(global const Fovea* fovea, Real distance) {
+    return distance < splat(fovea->radius + 2.0f);
+}
+
+/* One work-item a strip of the picture. planes: of what is rendered. upscaled: four planes of the
+ * picture; picture: written beyond the disk, where that alone is gathered. */
+kernel void upscale(global const FrameParams* restrict frame, uint target_width, uint target_height,
+                    uint beyond, global const Fovea* restrict fovea,
+                    global const Fovea* restrict past_fovea, global const float* restrict planes,
+                    global const float* restrict surfaces, global const float* restrict followed,
+                    global const float* restrict past_upscaled, global float* restrict upscaled,
+                    global float4* restrict picture) {
+    const Strip s = strip_of_item(target_width, target_height);
+    if (s.y >= s.height)
+        return;
+    const int width = (int)frame->width, height = (int)frame->height;
+    const uint pixels = frame->width * frame->height, all = target_width * target_height;
+    const float across = m_divide((float)width, (float)s.width);
+    const float down = m_divide((float)height, (float)s.height);
+    const float ratio_x = m_divide((float)s.width, (float)width);
+    const float ratio_y = m_divide((float)s.height, (float)height);
+    const Real one = splat(1.0f), zero = splat(0.0f);
+    /* What surrounds the disk has no jitter. */
+    Real share = one;
+    Mask gathered = strip_inside(&s);
+    if (beyond != MACULA_BEYOND_NOTHING) {
+        const Real distance = distance_in_picture(fovea, &s, across, down);
+        share = part_of_disk(fovea, distance);
+        if (beyond == MACULA_BEYOND_SMOOTH)
+            gathered = gathered & in_disk(fovea, distance);
+    }
+    if (beyond == MACULA_BEYOND_SMOOTH && !any_lane(share > zero)) {
+        const Source source = source_of(&s, width, height, across, down, zero, zero);
+        store_colours(picture, &s, smooth_colour(planes, pixels, &source));
+        if (!any_lane(gathered))
+            return;
+    }
+    const Source source =
+        source_of(&s, width, height, across, down, splat(frame->jitter[0]) * share,
+                  splat(frame->jitter[1]) * share);
+    const Current now = find_current(planes, pixels, &source, ratio_x, ratio_y);
+    Place place = find_place(followed, pixels, &s, &source, ratio_x, ratio_y);
+    /* As large as the picture, and in the middle of its pixels: there is nothing to gather. */
+    const bool complete = width == s.width && height == s.height && frame->jitter[0] == 0.0f &&
+                          frame->jitter[1] == 0.0f;
+    place.wanted = complete ? gathered & (one < zero) : gathered & place.wanted;
+    if (beyond == MACULA_BEYOND_SMOOTH)
+        place.wanted = place.wanted & was_gathered(past_fovea, place.x, place.y, across, down);
+    Past past = {splat_vector(splat3(0.0f)), zero};
+    if (any_lane(place.wanted)) {
+        const Footprint f = footprint_at(place.x, place.y, place.wanted, s.width, s.height);
+        past = find_past(past_upscaled, all, &f, place.wanted);
+    }
+    const Mask still = place.speed < splat(0x1p-8f);
+    const Real reach = still ? splat(STILL_REACH) : splat(MOVING_REACH);
+    const Real kept =
+        m_min(past.worth, still ? splat(STILL_WORTH) : splat(MOVING_WORTH));
+    const Real guess = m_divide(splat(GUESS) * m_max(one - now.weight, zero), one + kept);
+    const Real weight = now.weight + guess;
+    const Real3 sample = scale3(scale_add3(now.smooth, guess, now.sum), m_divide(one, weight));
+    Real slack = splat(1e-6f);
+    if (beyond != MACULA_BEYOND_NOTHING)
+        slack = m_max(slack, source_at(surfaces + MACULA_PLANE_SPREAD * pixels, &source, 0, 0));
+    const Real3 history = rectified(&now.around, past.colour, reach, slack);
+    const Real worth = kept + weight;
+    const Mask known = past.worth > zero;
+    const Real3 mixed = lerp3(history, sample, m_divide(weight, worth));
+    const Real3 result = select3(known, mixed, sample);
+    store_plane(upscaled, &s, m_max(result.x, zero));
+    store_plane(upscaled + all, &s, m_max(result.y, zero));
+    store_plane(upscaled + 2u * all, &s, m_max(result.z, zero));
+    store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, m_min(worth, splat(STILL_WORTH)));
+}
