@@ -7,6 +7,7 @@
 #include "host/stage/primary.hpp"
 #include "host/stage/shade.hpp"
 #include "host/stage/surface.hpp"
+#include "host/stage/temporal.hpp"
 
 namespace macula::method {
 
@@ -26,13 +27,14 @@ frame::Graph make_logrect(const stage::Kit& kit, const Options& options) {
         stage::log_polar_rays(log_rect),
         stage::trace_primary_rays(kit, kernel::RayClass::sparse),
         stage::resolve_surface(kit, "spread of slot"),
+        stage::place_surfaces(log_rect),
         occlusion ? stage::ambient_occlusion(kit) : stage::direct_light(kit, rows),
         stage::shade(kit, !occlusion, occlusion),
     };
     const std::string colour = add_secondary_rays(stages, kit, options, "spread of slot", rows);
     stages.push_back(stage::average_listed(kit, colour, "sampled colour", 16));
     graph.for_each_sample(std::move(stages));
-    graph.add(stage::remap_log_polar(log_rect));
+    graph.add(stage::remap_log_polar(log_rect)).add(stage::remap_surfaces(log_rect));
     return graph;
 }
 

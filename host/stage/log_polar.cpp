@@ -12,6 +12,8 @@
 namespace macula::stage {
 namespace {
 
+constexpr const char* kGenerate = "generate/log_polar";
+
 void require(bool holds, const char* what) {
     if (!holds)
         throw std::invalid_argument(std::string("method logpolar: ") + what);
@@ -84,10 +86,8 @@ std::uint32_t LogPolarKit::packets() const {
     return disk_packets() + shared::slot_count(p.width, p.height) / MACULA_RAY_BLOCK;
 }
 
-compute::Kernel LogPolarKit::generator(const char* entry) const {
-    return kit.library.kernel(
-        kernel::VariantKey("generate/log_polar").parameter("rectangular", rectangular ? 1 : 0),
-        entry, kit.device);
+kernel::VariantKey LogPolarKit::program(const char* name) const {
+    return kernel::VariantKey(name).parameter("rectangular", rectangular ? 1 : 0);
 }
 
 frame::Stage place_fovea(const LogPolarKit& kit) {
@@ -96,7 +96,7 @@ frame::Stage place_fovea(const LogPolarKit& kit) {
     stage.writes = {{"fovea", sizeof(shared::Fovea), 1}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto kernel = kit.generator("place_fovea");
+        auto kernel = kit.kit.library.kernel(kit.program(kGenerate), "place_fovea", kit.kit.device);
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel.set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"])
                 .launch(name, {1}, {1});
@@ -115,7 +115,8 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
                     {"log-polar colour", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto choose = kit.generator("choose_samples");
+        auto choose =
+            kit.kit.library.kernel(kit.program(kGenerate), "choose_samples", kit.kit.device);
         auto sum =
             std::make_shared<kernel::PrefixSum>(kit.kit.library, kit.kit.device, kit.packets());
         const std::uint32_t packets = kit.packets();
@@ -146,7 +147,8 @@ frame::Stage log_polar_rays(const LogPolarKit& kit) {
         {"ray count", 4, 1},
     };
     stage.prepare = [kit, name = stage.name] {
-        auto kernel = kit.generator("generate_log_polar_rays");
+        auto kernel = kit.kit.library.kernel(kit.program(kGenerate), "generate_log_polar_rays",
+                                             kit.kit.device);
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],

@@ -65,8 +65,8 @@ struct LogPolarKit {
 
     std::uint32_t disk_packets() const; // of 4 x 4 pixels
     std::uint32_t packets() const;      // and of 4 x 4 texels
-    // Of kernels/generate/log_polar.cl.
-    compute::Kernel generator(const char* entry) const;
+    // The key of a program that knows both kinds of buffer.
+    kernel::VariantKey program(const char* name) const;
 };
 
 // "fovea": where the gaze meets the image.

@@ -57,17 +57,9 @@ kernel void place_fovea(global const FrameParams* restrict frame,
     fovea->pad = 0u;
     /* What surrounds the disk is read between three columns; jitter shifts them by up to a half. */
     const bool jittered = frame->jitter[0] != 0.0f || frame->jitter[1] != 0.0f;
-    const float first =
-        log_polar_column(params, fovea, fovea->inner) - (jittered ? 3.0f : 2.0f);
-    fovea->first_column = radius >= far ? params->width : (first > 0.0f ? (uint)first : 0u);
-}
-
-/* True where some of the texel may lie in the image: each pixel then finds its texel sampled. Half
- * of a texel's diagonal, and a little more for its being bent. */
-static inline bool reaches_image(global const FrameParams* frame, const Sample* s) {
-    const float reach = 0.6f * distance_of(s->texel.along, s->texel.around);
-    return s->x >= -reach && s->y >= -reach && s->x < (float)frame->width + reach &&
-           s->y < (float)frame->height + reach;
+    const float first = log_polar_column(params, fovea, fovea->inner) - (jittered ? 3.0f : 2.0f);
+    const uint needed = MACULA_RECTANGULAR || first < 0.0f ? 0u : (uint)first;
+    fovea->first_column = radius >= far ? params->width : needed;
 }
 
 static inline bool in_disk(global const FrameParams* frame, global const Fovea* fovea, uint x,
@@ -81,6 +73,7 @@ static inline uint choose_texels(global const FrameParams* frame,
                                  global const LogPolarParams* params, global const Fovea* fovea,
                                  uint packet, global float4* buffer) {
     const uint width = params->width;
+    const Texels all = make_texels(frame, params, fovea);
     uint column0, row0, bits = 0u;
     pixel_of_slot(packet * MACULA_RAY_BLOCK, width, &column0, &row0);
     for (uint lane = 0u; lane < MACULA_RAY_BLOCK; ++lane) {
@@ -90,12 +83,10 @@ static inline uint choose_texels(global const FrameParams* frame,
         global float4* texels = buffer + row * params->pitch;
         if (column == 0u)
             texels[0] = texels[width + 1u] = (float4)(0.0f);
-        if (!is_read(frame, params, fovea, column, row))
-            continue;
-        const Sample middle =
-            sample_at(frame, params, fovea, (float)column + 0.5f, (float)row + 0.5f);
-        texels[column + 1u] = (float4)(0.0f);
-        bits |= reaches_image(frame, &middle) ? 1u << lane : 0u;
+        const bool needed = is_read(&all, column, row);
+        if (needed || MACULA_RECTANGULAR)
+            texels[column + 1u] = (float4)(0.0f);
+        bits |= needed && reaches_image(&all, column, row) ? 1u << lane : 0u;
     }
     return bits;
 }
@@ -155,6 +146,7 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
     const uint packet = (uint)get_global_id(0);
     const uint pixels = frame->width * frame->height;
     const List list = {rays, places, spreads};
+    const Texels texels = make_texels(frame, params, fovea);
     if (packet == 0u) {
         const uint total = min(*sum, params->capacity);
         pad_list(rays, places, total);
@@ -179,8 +171,8 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
         x = (float)column + dx;
         y = (float)row + dy;
         if (!disk) {
-            bias_column = lod_column(frame, params, fovea, x, y);
-            const Sample s = sample_at(frame, params, fovea, x, y);
+            bias_column = lod_column(&texels, x, y);
+            const Sample s = sample_at(&texels, x, y);
             x = s.x;
             y = s.y;
             /* The side of a square of the texel's area. */

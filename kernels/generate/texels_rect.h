@@ -2,15 +2,46 @@
 #include "lib/log_polar.h"
 #include "lib/log_rect.h"
 
-/* Texels on either side of a texel whose pixels may read it, for bilinear interpolation. */
-#define READ_FROM 1.0f
+/* Texels on either side of a texel whose pixels may read it: one for bilinear interpolation, and
+ * half of one for jitter. */
+#define READ_FROM 1.5f
+
+/* From the first of an axis's texels to the last one that may touch a disk. */
+typedef struct Span {
+    float first, last;
+} Span;
+
+typedef struct Texels {
+    global const LogPolarParams* params;
+    global const Fovea* fovea;
+    RectAxis across, down;
+    Span columns, rows; /* beyond them lies nothing of the disk */
+} Texels;
+
+static inline Span span_of_disk(const RectAxis* axis, float inverse_alpha, float gaze,
+                                float radius) {
+    const Span span = {rect_texel(axis, inverse_alpha, gaze - radius),
+                       rect_texel(axis, inverse_alpha, gaze + radius)};
+    return span;
+}
+
+static inline Texels make_texels(global const FrameParams* frame,
+                                 global const LogPolarParams* params, global const Fovea* fovea) {
+    Texels t;
+    t.params = params;
+    t.fovea = fovea;
+    t.across = make_rect_axis(fovea->x, frame->width, params->width);
+    t.down = make_rect_axis(fovea->y, frame->height, params->height);
+    t.columns = span_of_disk(&t.across, params->inverse_alpha, fovea->x, fovea->inner);
+    t.rows = span_of_disk(&t.down, params->inverse_alpha, fovea->y, fovea->inner);
+    return t;
+}
 
 /* How many texels along an axis lie within a distance of the gaze, for certain. */
 static inline float texels_within(const RectAxis* axis, float inverse_alpha, float gaze,
                                   float distance) {
-    const float first = rect_texel(axis, inverse_alpha, gaze - distance);
-    const float last = rect_texel(axis, inverse_alpha, gaze + distance);
-    return m_max(last - first - 4.0f * READ_FROM, 0.0f);
+    const Span span = span_of_disk(axis, inverse_alpha, gaze, distance);
+    return m_max(span.last - span.first - 4.0f * READ_FROM, 0.0f);
 }
 
 /* A disk that leaves more to trace than the image has pixels covers the image. */
@@ -28,39 +59,36 @@ static inline float fitting_radius(global const FrameParams* frame,
     return m_min(disk, pixels) + texels > pixels && radius > 0.0f ? 1e9f : radius;
 }
 
-/* False for texels that no pixel beyond the disk is read from: the furthest corner of what is read
- * from them lies within it. */
-static inline bool is_read(global const FrameParams* frame, global const LogPolarParams* params,
-                           global const Fovea* fovea, uint column, uint row) {
-    const RectAxis across = make_rect_axis(fovea->x, frame->width, params->width);
-    const RectAxis down = make_rect_axis(fovea->y, frame->height, params->height);
-    const float left = rect_place(&across, params->alpha, (float)column - READ_FROM);
-    const float right = rect_place(&across, params->alpha, (float)column + 1.0f + READ_FROM);
-    const float top = rect_place(&down, params->alpha, (float)row - READ_FROM);
-    const float bottom = rect_place(&down, params->alpha, (float)row + 1.0f + READ_FROM);
-    const float x = m_max(fabs(left - fovea->x), fabs(right - fovea->x));
-    const float y = m_max(fabs(top - fovea->y), fabs(bottom - fovea->y));
-    return distance_of(x, y) >= fovea->inner;
+static inline float furthest(const RectAxis* axis, float alpha, float gaze, uint texel) {
+    const float before = rect_place(axis, alpha, (float)texel - READ_FROM).place;
+    const float behind = rect_place(axis, alpha, (float)texel + 1.0f + READ_FROM).place;
+    return m_max(fabs(before - gaze), fabs(behind - gaze));
 }
 
-static inline Sample sample_at(global const FrameParams* frame, global const LogPolarParams* params,
-                               global const Fovea* fovea, float column, float row) {
-    const RectAxis across = make_rect_axis(fovea->x, frame->width, params->width);
-    const RectAxis down = make_rect_axis(fovea->y, frame->height, params->height);
-    Sample s;
-    s.x = rect_place(&across, params->alpha, column);
-    s.y = rect_place(&down, params->alpha, row);
-    s.texel.along = rect_place(&across, params->alpha, column + 0.5f) -
-                    rect_place(&across, params->alpha, column - 0.5f);
-    s.texel.around =
-        rect_place(&down, params->alpha, row + 0.5f) - rect_place(&down, params->alpha, row - 0.5f);
+/* False for texels that no pixel beyond the disk is read from: the furthest corner of what is read
+ * from them lies within it. */
+static inline bool is_read(const Texels* t, uint column, uint row) {
+    const float x = (float)column, y = (float)row;
+    if (x + 1.0f < t->columns.first || x > t->columns.last || y + 1.0f < t->rows.first ||
+        y > t->rows.last)
+        return true;
+    return distance_of(furthest(&t->across, t->params->alpha, t->fovea->x, column),
+                       furthest(&t->down, t->params->alpha, t->fovea->y, row)) >= t->fovea->inner;
+}
+
+static inline Sample sample_at(const Texels* t, float column, float row) {
+    const RectPlace x = rect_place(&t->across, t->params->alpha, column);
+    const RectPlace y = rect_place(&t->down, t->params->alpha, row);
+    const Sample s = {x.place, y.place, {x.size, y.size}};
     return s;
 }
 
+/* All texels lie in the image. */
+static inline bool reaches_image(const Texels* t, uint column, uint row) {
+    return true;
+}
+
 /* The thesis's bias of texture levels goes by the part of the way to the buffer's nearer edge. */
-static inline float lod_column(global const FrameParams* frame, global const LogPolarParams* params,
-                               global const Fovea* fovea, float column, float row) {
-    const RectAxis across = make_rect_axis(fovea->x, frame->width, params->width);
-    const RectAxis down = make_rect_axis(fovea->y, frame->height, params->height);
-    return m_max(rect_part(&across, column), rect_part(&down, row)) * (float)params->width;
+static inline float lod_column(const Texels* t, float column, float row) {
+    return m_max(rect_part(&t->across, column), rect_part(&t->down, row)) * (float)t->params->width;
 }

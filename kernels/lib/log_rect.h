@@ -57,15 +57,27 @@ MACULA_ALWAYS_INLINE float rect_part(const RectAxis* axis, float texel) {
     return m_min(m_divide(fabs(offset), m_max(texels, 1e-6f)), 1.0f);
 }
 
-/* Where a place in texels lies in pixels; beyond the buffer's ends: the image's. */
-MACULA_ALWAYS_INLINE float rect_place(const RectAxis* axis, float alpha, float texel) {
+/* Where a texel lies in pixels, and how many of them it takes there. */
+typedef struct RectPlace {
+    float place, size;
+} RectPlace;
+
+/* Of a place in texels; beyond the buffer's ends: the image's. */
+MACULA_ALWAYS_INLINE RectPlace rect_place(const RectAxis* axis, float alpha, float texel) {
     const float offset = texel - axis->middle, distance = fabs(offset);
     const bool is_behind = offset > 0.0f;
     const float pixels = is_behind ? axis->behind : axis->before;
-    const float warped = m_pow(rect_part(axis, texel), alpha);
-    const float grown = m_divide(m_exp(warped) - 1.0f, MACULA_E_MINUS_1) * pixels;
-    const float place = m_min(m_max(distance, grown), pixels);
-    return is_behind ? axis->gaze + place : axis->gaze - place;
+    const float texels = is_behind ? axis->texels_behind : axis->texels_before;
+    const float part = rect_part(axis, texel);
+    const float warped = m_pow(part, alpha), grown = m_exp(warped);
+    const float scale = m_divide(pixels, MACULA_E_MINUS_1);
+    const float away = (grown - 1.0f) * scale;
+    const float slope = m_divide(scale * grown * alpha * warped, m_max(part * texels, 1e-6f));
+    const float kept = m_min(m_max(distance, away), pixels);
+    RectPlace p;
+    p.place = is_behind ? axis->gaze + kept : axis->gaze - kept;
+    p.size = away > distance ? m_max(slope, 1.0f) : 1.0f;
+    return p;
 }
 
 MACULA_SHARED_END

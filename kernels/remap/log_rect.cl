@@ -70,8 +70,9 @@ kernel void remap_log_rect(global const FrameParams* restrict frame,
     const RectAxis columns = make_rect_axis(fovea->x, width, params->width);
     const RectAxis rows = make_rect_axis(fovea->y, height, params->height);
     Taps taps;
-    put_taps(rect_texel(&columns, params->inverse_alpha, x),
-             rect_texel(&rows, params->inverse_alpha, y), params, &taps);
+    /* The samples lie in the buffer where the frame's jitter put them. */
+    put_taps(rect_texel(&columns, params->inverse_alpha, x) - frame->jitter[0],
+             rect_texel(&rows, params->inverse_alpha, y) - frame->jitter[1], params, &taps);
     float4 sums[MACULA_LANES];
     for (uint lane = 0u; lane < MACULA_LANES; ++lane)
         sums[lane] = read_taps(buffer, &taps, lane);

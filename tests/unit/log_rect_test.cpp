@@ -23,7 +23,7 @@ TEST_P(Axis, PlacesComeBackToWithinATenthOfAPixel) {
         const RectAxis axis = make_rect_axis(gaze, 1920, texels);
         for (float place = 0.0f; place <= 1920.0f; place += 0.37f) {
             const float texel = rect_texel(&axis, 1.0f / alpha, place);
-            EXPECT_NEAR(rect_place(&axis, alpha, texel), place, 0.1f) << "gaze " << gaze;
+            EXPECT_NEAR(rect_place(&axis, alpha, texel).place, place, 0.1f) << "gaze " << gaze;
         }
     }
 }
@@ -33,11 +33,29 @@ TEST_P(Axis, GoesFromTheImagesFirstEdgeToItsLast) {
         const RectAxis axis = make_rect_axis(gaze, 1920, texels);
         EXPECT_NEAR(rect_texel(&axis, 1.0f / alpha, 0.0f), 0.0f, 2e-3f) << "gaze " << gaze;
         EXPECT_NEAR(rect_texel(&axis, 1.0f / alpha, 1920.0f), float(texels), 2e-3f);
-        EXPECT_NEAR(rect_place(&axis, alpha, 0.0f), 0.0f, 1e-3f);
-        EXPECT_NEAR(rect_place(&axis, alpha, float(texels)), 1920.0f, 1e-3f);
-        EXPECT_NEAR(rect_place(&axis, alpha, -5.0f), 0.0f, 1e-3f) << "before the buffer";
-        EXPECT_NEAR(rect_place(&axis, alpha, float(texels + 5)), 1920.0f, 1e-3f);
+        EXPECT_NEAR(rect_place(&axis, alpha, 0.0f).place, 0.0f, 1e-3f);
+        EXPECT_NEAR(rect_place(&axis, alpha, float(texels)).place, 1920.0f, 1e-3f);
+        EXPECT_NEAR(rect_place(&axis, alpha, -5.0f).place, 0.0f, 1e-3f) << "before the buffer";
+        EXPECT_NEAR(rect_place(&axis, alpha, float(texels + 5)).place, 1920.0f, 1e-3f);
     }
+}
+
+TEST_P(Axis, ATexelsSizeIsHowFarItsEdgesAreApart) {
+    const RectAxis axis = make_rect_axis(700.5f, 1920, texels);
+    int compared = 0;
+    for (unsigned texel = 1; texel + 1 < texels; ++texel) {
+        const RectPlace p = rect_place(&axis, alpha, float(texel) + 0.5f);
+        const RectPlace first = rect_place(&axis, alpha, float(texel));
+        const RectPlace last = rect_place(&axis, alpha, float(texel + 1));
+        // Of one kind from edge to edge, and not around the gaze.
+        const bool warped = first.size > 1.0f && p.size > 1.0f && last.size > 1.0f;
+        const bool even = first.size == 1.0f && p.size == 1.0f && last.size == 1.0f;
+        if ((!warped && !even) || std::fabs(float(texel) + 0.5f - axis.middle) < 1.0f)
+            continue;
+        EXPECT_NEAR(p.size, last.place - first.place, 0.03f * p.size + 0.01f) << texel;
+        ++compared;
+    }
+    EXPECT_GT(compared, int(texels * 9 / 10));
 }
 
 // Rises, and never puts two texels into one pixel.
@@ -45,8 +63,8 @@ TEST_P(Axis, ATexelIsAtLeastAPixel) {
     for (const float gaze : kGazes) {
         const RectAxis axis = make_rect_axis(gaze, 1920, texels);
         for (unsigned texel = 0; texel + 1 < texels; ++texel) {
-            const float a = rect_place(&axis, alpha, float(texel));
-            const float b = rect_place(&axis, alpha, float(texel + 1));
+            const float a = rect_place(&axis, alpha, float(texel)).place;
+            const float b = rect_place(&axis, alpha, float(texel + 1)).place;
             EXPECT_GT(b - a, 0.99f) << "gaze " << gaze << ", texel " << texel;
         }
     }
@@ -80,8 +98,8 @@ TEST(AxisOfOneTexelAPixel, IsTheIdentity) {
 TEST(AxisOfFewTexels, IsWhole) {
     for (const float gaze : {0.0f, 1.3f, 2.5f, 4.0f, 5.0f}) {
         const RectAxis axis = make_rect_axis(gaze, 5, 4);
-        EXPECT_NEAR(rect_place(&axis, 4.0f, 0.0f), 0.0f, 1e-5f);
-        EXPECT_NEAR(rect_place(&axis, 4.0f, 4.0f), 5.0f, 1e-5f);
+        EXPECT_NEAR(rect_place(&axis, 4.0f, 0.0f).place, 0.0f, 1e-5f);
+        EXPECT_NEAR(rect_place(&axis, 4.0f, 4.0f).place, 5.0f, 1e-5f);
     }
 }
 
