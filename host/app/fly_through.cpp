@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::array kMethods = {"full", "weier", "lowres", "logpolar+taa+upscale"};
 constexpr std::uint32_t kColumns = 2;    // of the pictures side by side; of the sheet all in a row
+// Of logpolar: the thesis's 4 is for pictures of three times this size along each axis.
+constexpr float kAlpha = 1.5f;
 constexpr std::uint32_t kSheetEvery = 8; // frames between the contact sheet's rows
 
 class Flight {
@@ -67,6 +69,7 @@ class Flight {
         engine.height = views_.display().height;
         engine.tangents = tangents_of(views_.display().eye(scene::Eye::mono));
         engine.lowres_scale = static_cast<float>(std::sqrt(share_));
+        engine.log_polar.alpha = kAlpha;
         engine.geometry.cache_directory = bvh_cache_folder();
         return {device_, scene_, engine};
     }

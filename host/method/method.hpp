@@ -62,6 +62,7 @@ const Method& find_method(std::string_view name);
 // host/method/<name>.cpp
 frame::Graph make_full(const stage::Kit& kit, const Options& options);
 frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
+frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
