@@ -149,10 +149,10 @@ kernel void generate_secondary_rays(
     global const float* restrict last_through, global const float4* restrict last_origin,
     global const float* restrict depth, global const float4* restrict position,
     global const uint* restrict material, global const float4* restrict geometric_normal,
-    global const float4* restrict shading_normal, global const SurfaceOptics* restrict optics, global RayBlock* restrict rays,
-    global uint* restrict pixels, global uint* restrict roots, global float4* restrict throughput,
-    global float4* restrict origin, global uint* restrict ray_count,
-    global ulong* restrict ray_totals, uint ray_class) {
+    global const float4* restrict shading_normal, global const SurfaceOptics* restrict optics,
+    global RayBlock* restrict rays, global uint* restrict pixels, global uint* restrict roots,
+    global float4* restrict throughput, global float4* restrict origin,
+    global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint count = *queue_count, first = first_of_item();
     if (first == 0u) {
         *ray_count = padded_count(count);
