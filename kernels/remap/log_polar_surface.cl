@@ -1,12 +1,25 @@
-/* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where
- * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's
- * for others there: motion is the mean over the samples around a pixel, depth their range. */
+/* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
+ * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
+ * next frame's for others there: motion is the mean over the samples around a pixel, depth their
+ * range. */
 #include "lib/camera.h"
 #include "lib/log_polar.h"
 #include "lib/strip.h"
 #include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/fovea.h"
+
+/* Where a strip's pixels lie in the buffer: in texels, 0 being the middle of the first one. */
+typedef struct Place {
+    Real column, row;
+} Place;
+
+/* 1 for the log-rectilinear buffer. */
+#if MACULA_RECTANGULAR
+#include "remap/places_rect.h"
+#else
+#include "remap/places_polar.h"
+#endif
 
 static inline float luminance(float4 c) {
     return fma(c.x, 0.2126f, fma(c.y, 0.7152f, c.z * 0.0722f));
@@ -39,8 +52,8 @@ static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
                              global const float4* restrict colours,
-                             global const float4* restrict surfaces,
-                             global float2* restrict ranges, global float4* restrict motions) {
+                             global const float4* restrict surfaces, global float2* restrict ranges,
+                             global float4* restrict motions) {
     const uint texel = (uint)get_global_id(0), row = texel / params->width;
     const uint column = texel % params->width;
     if (row >= params->height || column < fovea->first_column)
@@ -48,8 +61,7 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     Sums sums = {MACULA_BACKGROUND_DEPTH, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     for (uint k = 0u; k < 9u; ++k) {
         const uint i = column + k % 3u; /* a row begins with an empty texel */
-        const uint j = (row + params->height + k / 3u - 1u) % params->height;
-        const uint at = j * params->pitch + i;
+        const uint at = row_of_texels(params, (int)(row + k / 3u) - 1) * params->pitch + i;
         if (i > fovea->first_column && i <= params->width && colours[at].w > 0.0f)
             add_texel(&sums, colours[at], surfaces[at]);
     }
@@ -61,30 +73,6 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     ranges[to] = (float2)(sums.least, sums.most);
     motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
                            sums.movable > 0.0f ? 1.0f : 0.0f);
-}
-
-/* Where a strip's pixels lie in the buffer: in texels, 0 being the middle of the first one. */
-typedef struct Place {
-    Real column, row;
-} Place;
-
-static inline Place place_in_buffer(global const FrameParams* frame,
-                                    global const LogPolarParams* params, global const Fovea* fovea,
-                                    Real x, Real y, Real distance) {
-    const Real last = splat((float)(params->width - 1u)), half_texel = splat(0.5f);
-    const Real first = splat((float)min(fovea->first_column, params->width - 1u));
-    const Real column = log_polar_column(params, fovea, distance) - splat(frame->jitter[0]);
-    const Place p = {clamped(column - half_texel, first, last),
-                     log_polar_row(params, x, y) - splat(frame->jitter[1]) - half_texel};
-    return p;
-}
-
-/* The index of a texel; the buffer goes on around the gaze. */
-static inline Uint texel_at(global const LogPolarParams* params, Int column, Int row) {
-    const Int rows = splat_int((int)params->height);
-    const Int below = row < 0 ? row + rows : row;
-    const Int kept = below >= rows ? below - rows : below;
-    return int_to_uint(kept * (int)params->pitch + column + 1);
 }
 
 /* Between two by two texels; those without motion count nothing, and none at all: no motion. */
@@ -133,8 +121,8 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     if (any_lane(strip_inside(&s) & (distance >= splat(fovea->radius)))) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
-        const Place p = place_in_buffer(frame, params, fovea, x, y,
-                                        m_max(distance, splat(fovea->inner)));
+        const Place p =
+            place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
         const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
         const Lane4 motion = motion_at(params, motions, &p);
         least = sampled ? least : MACULA_GATHER(float, ranges, nearest, .x);
