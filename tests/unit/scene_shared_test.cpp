@@ -307,14 +307,14 @@ TEST(SharedSceneTraps, OriginalCornellBoxIsLitByItsCeilingLamp) {
     EXPECT_LT(glm::cross(scene.lights[0].edge_u, scene.lights[0].edge_v).y, 0.0f);
 }
 
-TEST(SharedSceneTraps, NeedlesOfThePineAreMasked) {
+TEST(SharedSceneTraps, NeedlesOfThePineBlend) {
     if (const std::string reason = reason_to_skip("gltf_small/smallpine/scene.gltf");
         !reason.empty())
         GTEST_SKIP() << reason;
     const Material* needles = nullptr;
     const Scene scene = load_shared("gltf_small/smallpine/scene.gltf");
     for (const Material& material : scene.materials)
-        if (material.alpha_mode == AlphaMode::mask)
+        if (material.alpha_mode == AlphaMode::blend)
             needles = &material;
     ASSERT_NE(needles, nullptr);
     EXPECT_TRUE(scene.textures[needles->diffuse_texture].has_alpha);
