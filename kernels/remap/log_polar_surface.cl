@@ -55,7 +55,7 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
 }
 
 /* One work-item a strip. sampled: depth and motion of the disk. range, followed: as of
- * follow_surfaces(); spread: the deviation of the samples that a pixel is made of, 0 in the disk. */
+ * follow_surfaces(); spread: the deviation of the samples that a pixel is made of; 0: the disk. */
 kernel void remap_surfaces(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
                            global const Fovea* restrict fovea, global const float2* restrict ranges,

@@ -80,8 +80,8 @@ static inline Real retention_bias(global const FrameParams* frame, Real change, 
 }
 
 /* One work-item a strip. stable: four planes, colour and worth; colour_out may be null. `fovea`:
- * null, or the disk within which nothing is smoothed. spreads: the deviation of the luminance of the
- * samples that a pixel is made of. */
+ * null, or the disk within which nothing is smoothed. spreads: the deviation of the luminance of
+ * the samples that a pixel is made of. */
 kernel void antialias(global const FrameParams* restrict frame, float frame_rate,
                       global const Fovea* restrict fovea, global const float4* restrict colour,
                       global const float* restrict spreads, global const float* restrict followed,
