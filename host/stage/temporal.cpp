@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/planes.h"
+#include "shared/ray.h"
 
 namespace macula::stage {
 namespace {
@@ -84,12 +85,12 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
         auto remap = kit.kit.lane_kernel("remap/log_polar_surface", "remap_surfaces");
         return [=](frame::Run& run) mutable {
             const shared::LogPolarParams& p = kit.buffer->params();
+            const std::uint64_t across = (p.width + MACULA_RAY_BLOCK - 1) / MACULA_RAY_BLOCK;
             summarise
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels",
-                        {compute::Range::cover(std::uint64_t{p.width} * p.height, kGroup)},
+                .launch("summarise texels", {compute::Range::cover(across * p.height, kGroup)},
                         {kGroup});
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
