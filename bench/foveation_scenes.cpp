@@ -31,12 +31,12 @@ bool is_found(const char* file, std::span<const fs::path> folders) {
     });
 }
 
-// The scene file that adds lights and the fly-through to a known geometry.
+// The scene file NAME.toml, which adds lights, views or a fly-through; names that have none stay.
 std::string scene_file(const std::string& name, std::span<const fs::path> folders) {
+    if (fs::path(name).has_extension() || fs::path(name).has_parent_path())
+        return name;
     const bool is_known = std::any_of(kFileScenes.begin(), kFileScenes.end(),
                                       [&](const FileScene& s) { return name == s.name; });
-    if (!is_known)
-        return name;
     std::vector<fs::path> places(folders.begin(), folders.end());
     places.insert(places.end(), {"scenes/files", MACULA_SCENE_FILES});
     for (const fs::path& place : places) {
@@ -44,6 +44,8 @@ std::string scene_file(const std::string& name, std::span<const fs::path> folder
         if (fs::is_regular_file(place / (name + ".toml"), ignored))
             return (place / (name + ".toml")).string();
     }
+    if (!is_known)
+        return name;
     throw std::invalid_argument(fmt::format(
         "--scene {}: {}.toml lies in none of the scene folders nor in scenes/files", name, name));
 }

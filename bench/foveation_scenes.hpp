@@ -8,9 +8,9 @@
 
 namespace macula::bench {
 
-// A built-in scene, a file, or `sibenik` or `sponza_crytek`: their geometry is looked for in the
-// scene folders (bench/cases.hpp), their lights and fly-through lie in scenes/files. Throws
-// scene::SceneError, std::invalid_argument where a scene file is not found.
+// A built-in scene, a file, or the name of a scene file in the scene folders (bench/cases.hpp) or
+// in scenes/files, such as `sibenik`: its geometry is looked for in the scene folders. Throws
+// scene::SceneError, std::invalid_argument where a known scene's file is not found.
 scene::Scene load_fly_through(const std::string& name, const std::vector<std::string>& scene_path);
 
 // What rows call it: the name, or a file's without its extension.

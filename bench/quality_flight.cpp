@@ -80,6 +80,11 @@ metric::Picture copy_colour(const render::Renderer& renderer) {
     return picture;
 }
 
+metric::MotionField copy_motion(const render::Renderer& renderer) {
+    const render::Image image = renderer.map("motion");
+    return {image.width, image.height, {image.floats.begin(), image.floats.end()}};
+}
+
 QualityFlight::QualityFlight(const QualityOptions& options, const compute::Device& device,
                              const std::string& scene)
     : options_(options), name_(scene_name(scene)),

@@ -10,6 +10,7 @@
 #include "bench/flight.hpp"
 #include "bench/quality.hpp"
 #include "host/metric/picture.hpp"
+#include "host/metric/temporal.hpp"
 
 namespace macula::bench {
 
@@ -66,5 +67,6 @@ class QualityFlight {
 
 // "colour", the last frame of a renderer, and "motion" are copied out of device memory.
 metric::Picture copy_colour(const render::Renderer& renderer);
+metric::MotionField copy_motion(const render::Renderer& renderer);
 
 } // namespace macula::bench

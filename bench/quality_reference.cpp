@@ -32,11 +32,6 @@ std::string text(const scene::Camera& c) {
                        c.target.x, c.target.y, c.target.z, c.up.x, c.up.y, c.up.z);
 }
 
-metric::MotionField copy_motion(const render::Renderer& renderer) {
-    const render::Image image = renderer.map("motion");
-    return {image.width, image.height, {image.floats.begin(), image.floats.end()}};
-}
-
 constexpr std::size_t kFloats = 3 + 3 + 2; // a pixel
 
 std::vector<std::byte> packed(const ReferenceFrame& frame) {

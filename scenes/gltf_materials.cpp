@@ -186,9 +186,8 @@ void Converter::convert_alpha(const tinygltf::Material& source, Material& materi
         material.opacity = 1.0f;
     } else if (source.alphaMode == "BLEND") {
         material.alpha_cutoff = 0.5f;
-        material.alpha_mode = material.opacity < 1.0f ? AlphaMode::blend
-                              : textured              ? AlphaMode::mask
-                                                      : AlphaMode::opaque;
+        material.alpha_mode =
+            material.opacity < 1.0f || textured ? AlphaMode::blend : AlphaMode::opaque;
     } else {
         material.opacity = 1.0f;
     }
@@ -211,9 +210,12 @@ Material Converter::convert(const tinygltf::Material& source, std::size_t index)
         material.emission *= static_cast<float>(number(*glow, "emissiveStrength", 1.0));
     if (const auto* ior = extension(source.extensions, "KHR_materials_ior"))
         material.index_of_refraction = static_cast<float>(number(*ior, "ior", 1.5));
-    if (const auto* clear = extension(source.extensions, "KHR_materials_transmission"))
+    if (const auto* clear = extension(source.extensions, "KHR_materials_transmission")) {
         material.transmission =
             material.diffuse * static_cast<float>(number(*clear, "transmissionFactor", 0.0));
+        if (material.transmission != glm::vec3(0.0f))
+            material.reflectivity = glm::vec3(0.0f); // Fresnel's part is reflected
+    }
     if (extension(source.extensions, "KHR_materials_unlit") != nullptr)
         scene_.warnings.push_back("material '" + material.name + "': unlit, but is shaded here");
     convert_alpha(source, material);

@@ -71,8 +71,11 @@ Material to_phong(const tinyobj::material_t& source) {
     material.index_of_refraction = source.ior > 0.0f ? static_cast<float>(source.ior) : 1.0f;
     if (is_mirror(source.illum))
         material.reflectivity = material.specular;
-    if (is_refractive(source.illum))
+    if (is_refractive(source.illum)) {
         material.transmission = to_vec3(source.transmittance);
+        if (material.transmission == glm::vec3(0.0f)) // no Tf: what is not dissolved
+            material.transmission = glm::vec3(1.0f - material.opacity);
+    }
     if (material.opacity < 1.0f)
         material.alpha_mode = AlphaMode::blend;
     return material;

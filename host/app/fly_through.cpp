@@ -17,7 +17,10 @@
 namespace macula::app {
 namespace {
 
-constexpr std::array kMethods = {"full", "weier", "lowres"};
+constexpr std::array kMethods = {"full", "weier", "lowres", "logpolar+taa+upscale"};
+constexpr std::uint32_t kColumns = 2;    // of the pictures side by side; of the sheet all in a row
+// Of logpolar: the thesis's 4 is for pictures of three times this size along each axis.
+constexpr float kAlpha = 1.5f;
 constexpr std::uint32_t kSheetEvery = 8; // frames between the contact sheet's rows
 
 class Flight {
@@ -41,7 +44,8 @@ class Flight {
         }
         std::filesystem::create_directories(out_ / "side_by_side");
         const auto height = views_.display().height;
-        Collage sheet(3 * (views_.display().width / 2), height / 2 * sheet_rows());
+        const auto columns = static_cast<std::uint32_t>(kMethods.size());
+        Collage sheet(columns * (views_.display().width / 2), height / 2 * sheet_rows());
         for (std::uint32_t i = 0; i < options_.frames; ++i)
             fly(renderers, files, i, sheet);
         sheet.write(out_ / "contact_sheet.png");
@@ -65,6 +69,7 @@ class Flight {
         engine.height = views_.display().height;
         engine.tangents = tangents_of(views_.display().eye(scene::Eye::mono));
         engine.lowres_scale = static_cast<float>(std::sqrt(share_));
+        engine.log_polar.alpha = kAlpha;
         engine.geometry.cache_directory = bvh_cache_folder();
         return {device_, scene_, engine};
     }
@@ -98,7 +103,8 @@ class Flight {
              std::uint32_t i, Collage& sheet) {
         const std::uint32_t frame = options_.first + i;
         const scene::Display& display = views_.display();
-        Collage row(3 * display.width, display.height);
+        Collage grid(kColumns * display.width,
+                     (kMethods.size() + kColumns - 1) / kColumns * display.height);
         for (std::size_t m = 0; m < kMethods.size(); ++m) {
             const render::FrameReport report = render(renderers[m], frame);
             double ms = 0.0;
@@ -107,30 +113,41 @@ class Flight {
             ms_[m].push_back(ms > 0.0 ? ms : report.wall_ms);
             samples_[m] += camera_rays(report);
             files[m].write(renderers[m], i);
-            const auto left = static_cast<std::uint32_t>(m) * display.width;
-            row.place(renderers[m].map("colour"), left, 0);
-            mark_gaze(row, frame, left);
+            const auto column = static_cast<std::uint32_t>(m);
+            const std::uint32_t left = column % kColumns * display.width;
+            const std::uint32_t top = column / kColumns * display.height;
+            grid.place(renderers[m].map("colour"), left, top);
+            mark_gaze(grid, frame, left, top);
+            if (i % kSheetEvery == 0)
+                add_to_sheet(sheet, renderers[m].map("colour"), frame, column, i / kSheetEvery);
         }
-        if (i % kSheetEvery == 0)
-            sheet.place_half(row, 0, i / kSheetEvery * (display.height / 2));
-        row.write(out_ / "side_by_side" / fmt::format("frame_{:04}.png", i));
+        grid.write(out_ / "side_by_side" / fmt::format("frame_{:04}.png", i));
     }
 
-    void mark_gaze(Collage& row, std::uint32_t frame, std::uint32_t left) {
+    void add_to_sheet(Collage& sheet, const render::Image& image, std::uint32_t frame,
+                      std::uint32_t column, std::uint32_t row) {
+        const scene::Display& display = views_.display();
+        Collage picture(display.width, display.height);
+        picture.place(image, 0, 0);
+        mark_gaze(picture, frame, 0, 0);
+        sheet.place_half(picture, column * (display.width / 2), row * (display.height / 2));
+    }
+
+    void mark_gaze(Collage& picture, std::uint32_t frame, std::uint32_t left, std::uint32_t top) {
         double x = 0.0, y = 0.0;
         const scene::GazeSample sample = views_.at(frame, scene::Eye::mono).sample;
         if (scene::project(views_.display(), scene::Eye::mono, sample.of(scene::Eye::mono), x, y))
-            row.mark(left + x, y);
+            picture.mark(left + x, top + y);
     }
 
     void print() const {
         const auto width = views_.display().width, height = views_.display().height;
         fmt::print("\nfly-through of {}, {} frames of {} x {}, area lights, gaze: {}\n",
                    options_.scene, options_.frames, width, height, views_.gaze_source());
-        fmt::print("{:<10} {:>14} {:>14} {:>10}\n", "method", "samples/pixel", "ms (median)",
+        fmt::print("{:<21} {:>14} {:>14} {:>10}\n", "method", "samples/pixel", "ms (median)",
                    "speed-up");
         for (std::size_t m = 0; m < kMethods.size(); ++m)
-            fmt::print("{:<10} {:>14.3f} {:>14.2f} {:>10.2f}\n", kMethods[m],
+            fmt::print("{:<21} {:>14.3f} {:>14.2f} {:>10.2f}\n", kMethods[m],
                        samples_[m] / (static_cast<double>(options_.frames) * width * height),
                        metric::median(ms_[m]), metric::median(metric::ratios(ms_[0], ms_[m])));
     }

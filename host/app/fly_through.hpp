@@ -1,4 +1,5 @@
-/// The demo's fly-through: `full`, `weier` and `lowres` along the same path with the same gaze.
+/// The demo's fly-through: `full`, `weier`, `lowres` and `logpolar+taa+upscale` along the same path
+/// with the same gaze.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct FlyThrough {
     std::uint32_t first = 60, frames = 48; // of the scene's path
 };
 
-/// Writes PNG frames of each method, of the three side by side with the gaze marked, and a contact
+/// Writes PNG frames of each method, of the four side by side with the gaze marked, and a contact
 /// sheet into `out`, and prints what the methods took. `lowres` gets as many samples as `weier`
 /// took on average. Throws std::runtime_error where a file cannot be written.
 void fly_through(const FlyThrough& flight, const compute::Device& device,

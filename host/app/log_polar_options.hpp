@@ -1,4 +1,4 @@
-/// The options of the method logpolar (docs/methods/logpolar.md).
+/// The options of the methods logpolar and logrect (docs/methods).
 #pragma once
 
 #include "host/stage/log_polar.hpp"

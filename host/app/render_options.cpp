@@ -111,6 +111,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.samples_per_pixel = options.samples_per_pixel;
     engine.seed = options.seed;
     engine.depth = options.depth;
+    engine.layers = options.layers;
     engine.lod_bias = options.lod_bias;
     engine.variant = options.variant;
     engine.lanes = options.lanes;
@@ -142,6 +143,8 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--ao-samples", ambient_occlusion_samples, "Rays of ambient occlusion")
         ->capture_default_str();
     command.add_option("--ao-radius", ambient_occlusion_radius, "World units; 0: the scene's")
+        ->capture_default_str();
+    command.add_option("--layers", layers, "Blended surfaces kept along a ray")
         ->capture_default_str();
     command.add_option("--depth", depth, "Levels of reflected and refracted rays")
         ->capture_default_str();

@@ -22,7 +22,8 @@ struct RenderOptions : ViewOptions {
     std::string scene, device, method = "full", camera, path = "scene", frames, lights = "point",
                                variant;
     std::uint32_t lanes = 0;
-    std::uint32_t samples_per_pixel = 1, ambient_occlusion_samples = 16, seed = 0, depth = 1;
+    std::uint32_t samples_per_pixel = 1, ambient_occlusion_samples = 16, seed = 0, depth = 1,
+                  layers = 4;
     std::optional<std::uint32_t> light_samples;
     std::uint32_t scene_size = 0;
     std::uint64_t scene_seed = 1;

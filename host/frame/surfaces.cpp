@@ -1,4 +1,5 @@
 #include "host/frame/surfaces.hpp"
+#include "host/frame/blended.hpp"
 
 #include <algorithm>
 #include <map>
@@ -61,6 +62,22 @@ shared::SurfaceMaterial make_material(const scene::Material& m, const TextureDat
     return out;
 }
 
+// Of a blended material.
+std::uint32_t opacity_texture(const scene::Scene& scene, const scene::Material& m,
+                              const TextureData& data) {
+    const auto slot = [&](std::uint32_t texture) {
+        return texture < data.slot_of.size() ? data.slot_of[texture] : scene::kNoTexture;
+    };
+    if (!is_blended(m))
+        return MACULA_NO_TEXTURE;
+    if (slot(m.alpha_texture) != scene::kNoTexture)
+        return slot(m.alpha_texture);
+    const std::uint32_t colour = slot(m.diffuse_texture);
+    return colour != scene::kNoTexture && scene.textures[m.diffuse_texture].has_alpha
+               ? colour | MACULA_ALPHA_CHANNEL
+               : MACULA_NO_TEXTURE;
+}
+
 bool any_positive(const glm::vec3& v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
@@ -83,6 +100,8 @@ bool has_optics(const scene::Scene& scene) {
 
 shared::SurfaceOptics make_optics(const scene::Material& m) {
     shared::SurfaceOptics out{};
+    out.opacity = std::clamp(m.opacity, 0.0f, 1.0f);
+    out.opacity_texture = MACULA_NO_TEXTURE;
     out.index_of_refraction = std::clamp(m.index_of_refraction, 0.1f, 10.0f);
     for (int i = 0; i < 3; ++i) {
         const float scale = 1.0f / std::max(1.0f, m.reflectivity[i] + m.transmission[i]);
@@ -95,7 +114,8 @@ shared::SurfaceOptics make_optics(const scene::Material& m) {
 }
 
 DeviceSurfaces::DeviceSurfaces(compute::Device& device, const scene::Scene& scene,
-                               std::span<const MeshPart> parts) {
+                               std::span<const MeshPart> parts,
+                               const DeviceSurfaces* shared_tables) {
     std::uint64_t vertex_count = 0;
     const auto first_vertex = place_vertices(scene, parts, vertex_count);
     vertices = device.allocate_array<shared::SurfaceVertex>(vertex_count, "vertex attributes");
@@ -119,12 +139,22 @@ DeviceSurfaces::DeviceSurfaces(compute::Device& device, const scene::Scene& scen
             }
         }
     }
+    if (shared_tables != nullptr) {
+        optics = shared_tables->optics;
+        materials = shared_tables->materials;
+        textures = shared_tables->textures;
+        levels = shared_tables->levels;
+        texels = shared_tables->texels;
+        decode = shared_tables->decode;
+        return;
+    }
     const TextureData data(scene);
     std::vector<shared::SurfaceMaterial> table;
     std::vector<shared::SurfaceOptics> optics_table;
     for (const scene::Material& material : scene.materials) {
         table.push_back(make_material(material, data));
         optics_table.push_back(make_optics(material));
+        optics_table.back().opacity_texture = opacity_texture(scene, material, data);
     }
     optics = upload(device, optics_table, "optics of materials");
     materials = upload(device, table, "materials");

@@ -39,9 +39,10 @@ std::vector<float> decoding_table();
 class DeviceSurfaces {
   public:
     // `parts` are those of the scene's DeviceGeometry. The scene may be destroyed afterwards.
+    // `shared_tables`: of another part of the same scene, whose materials and textures are used.
     // Throws the device's error when a buffer does not fit.
     DeviceSurfaces(compute::Device& device, const scene::Scene& scene,
-                   std::span<const MeshPart> parts);
+                   std::span<const MeshPart> parts, const DeviceSurfaces* shared_tables = nullptr);
 
     compute::Buffer triangles, vertices, materials; // SurfaceTriangle, SurfaceVertex, ...
     compute::Buffer optics;                         // SurfaceOptics

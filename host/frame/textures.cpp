@@ -2,6 +2,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/frame/blended.hpp"
 #include "host/frame/surfaces.hpp"
 #include "lib/texture.h"
 
@@ -22,11 +23,14 @@ std::uint32_t wrap_bits(scene::Wrap wrap) {
 
 std::vector<bool> textures_in_use(const scene::Scene& scene) {
     std::vector<bool> used(scene.textures.size(), false);
-    for (const scene::Material& m : scene.materials)
+    for (const scene::Material& m : scene.materials) {
+        if (is_blended(m) && m.alpha_texture < used.size())
+            used[m.alpha_texture] = true;
         for (const std::uint32_t texture :
              {m.diffuse_texture, m.specular_texture, m.emission_texture, m.normal_texture})
             if (texture < used.size())
                 used[texture] = true;
+    }
     return used;
 }
 

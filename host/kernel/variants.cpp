@@ -21,11 +21,14 @@ constexpr std::array kPacketStream = {
     Parameter{"rays_per_item", 32, 512, 512, true, ParameterUse::literal,
               "rays that a work-item takes through the tree together"},
 };
+constexpr std::uint32_t kChunksInTurn = 8;
 constexpr std::array kStream = {
     work_group(1),
     Parameter{"rays_per_item", 64, 8192, 2048, true, ParameterUse::literal,
               "rays that a work-item sorts"},
     Parameter{"chunk", 4, 32, 32, true, ParameterUse::literal, "rays that share a traversal"},
+    Parameter{"chunks_in_turn", 1, 16, kChunksInTurn, false, ParameterUse::literal,
+              "chunks that a work-item advances in turn"},
 };
 constexpr std::array kPersistent = {
     work_group(32),
@@ -42,9 +45,10 @@ constexpr std::uint32_t kQuantizedStack = MACULA_MAX_DEPTH * 5 + kBinaryStack / 
 
 // A packet's rays, frustum and results, in bytes: about 22 vectors of 64.
 constexpr std::uint32_t kPacket = 22 * 64;
-// A ray of a stream: its best hit in its chunk, and its row and class among those that are sorted.
-constexpr std::uint32_t kStreamRay = 16;
+// A ray of a stream: its row and class among those that are sorted, and its best hit in its chunk,
+// whose stack has three words an entry.
 constexpr std::uint32_t kSortedRay = 65;
+constexpr std::uint32_t kStreamChunk = 32 * 20 + (7 * MACULA_MAX_DEPTH + 16) * 12;
 
 constexpr RayClassSet bit(RayClass ray_class) {
     return 1u << static_cast<unsigned>(ray_class);
@@ -87,7 +91,7 @@ constexpr Variant kVariants[] = {
         .preferred_on_cpu =
             bit(RayClass::ambient_occlusion) | bit(RayClass::diffuse) | bit(RayClass::random),
         .preferred_on_gpu = kNone,
-        .private_bytes = 2048 * kSortedRay + 2 * (32 * kStreamRay + kWide8Stack),
+        .private_bytes = 2048 * kSortedRay + kChunksInTurn * kStreamChunk,
     },
     {
         .name = "wide8_quantized",

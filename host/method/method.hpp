@@ -62,6 +62,7 @@ const Method& find_method(std::string_view name);
 // host/method/<name>.cpp
 frame::Graph make_full(const stage::Kit& kit, const Options& options);
 frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
+frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
@@ -69,9 +70,10 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 // stages for within for_each_sample. Their names are those of render::image_formats().
 std::vector<frame::Stage> surface_images(const stage::Kit& kit, const Options& options);
 
-// The levels of reflected and refracted rays behind a shaded list, to be appended to it: none where
-// the kit has no depth. `spreads`, `rows`: as resolve_surface() and direct_light() of the primary
-// rays take them. Returns the name of the resource that then holds each slot's whole colour.
+// The levels of reflected and refracted rays behind a shaded list and the blended layers before it,
+// to be appended to it: none where the kit has no depth, or no layers. `spreads`, `rows`: as
+// resolve_surface() and direct_light() of the primary rays take them. Returns the name of the
+// resource that then holds each slot's whole colour.
 std::string add_secondary_rays(std::vector<frame::Stage>& stages, const stage::Kit& kit,
                                const Options& options, const std::string& spreads = {},
                                stage::PlaceRows rows = {});

@@ -18,6 +18,12 @@ constexpr std::array kMethods = {
            false, true},
     Method{"logpolar+taa+upscale", "the same at fewer pixels, smoothed and enlarged over frames",
            make_logpolar, true, true},
+    Method{"logrect", "samples uniform in log-rectilinear space (Li et al. 2021)", make_logrect},
+    Method{"logrect+taa", "the same, smoothed over frames", make_logrect, true, false},
+    Method{"logrect+upscale", "the same at fewer pixels, enlarged over frames", make_logrect, false,
+           true},
+    Method{"logrect+taa+upscale", "the same at fewer pixels, smoothed and enlarged over frames",
+           make_logrect, true, true},
     Method{"lowres", "uniform lower resolution, enlarged by a bicubic filter", make_lowres},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},
 };

@@ -4,7 +4,16 @@ namespace macula::render {
 
 DeviceScene::DeviceScene(const compute::Device& on, const scene::Scene& scene,
                          const frame::GeometryOptions& options)
-    : device(on), geometry(device, scene, options), surfaces(device, scene, geometry.parts()) {}
+    : DeviceScene(on, scene, options, frame::split_blended(scene)) {}
+
+DeviceScene::DeviceScene(const compute::Device& on, const scene::Scene& scene,
+                         const frame::GeometryOptions& options,
+                         const std::optional<frame::SplitScene>& split)
+    : device(on), geometry(device, split ? split->opaque : scene, options),
+      surfaces(device, split ? split->opaque : scene, geometry.parts()),
+      blended(
+          split ? std::make_unique<frame::DeviceBlended>(device, split->blended, surfaces, options)
+                : nullptr) {}
 
 void DeviceScene::set_transforms(std::span<const scene::Transform> world_from_object) {
     transforms_.assign(world_from_object.begin(), world_from_object.end());
@@ -16,6 +25,8 @@ void DeviceScene::begin_frame(std::uint64_t count) {
         return;
     if (frames_to_place_ > 0) {
         geometry.set_transforms(transforms_);
+        if (blended)
+            blended->geometry.set_transforms(transforms_);
         --frames_to_place_;
     }
     frames_ = count;

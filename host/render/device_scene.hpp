@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/cl/device.hpp"
+#include "host/frame/blended.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/frame/surfaces.hpp"
 #include "host/kernel/library.hpp"
@@ -34,10 +37,15 @@ class DeviceScene {
 
     compute::Device device;
     kernel::Library library;
-    frame::DeviceGeometry geometry;
+    frame::DeviceGeometry geometry; // without the blended triangles
     frame::DeviceSurfaces surfaces;
+    std::unique_ptr<frame::DeviceBlended> blended; // null where nothing is blended
 
   private:
+    DeviceScene(const compute::Device& device, const scene::Scene& scene,
+                const frame::GeometryOptions& options,
+                const std::optional<frame::SplitScene>& split);
+
     std::uint64_t frames_ = 0;
     std::vector<scene::Transform> transforms_;
     // Frames for which the transforms must still be set: the one in which something moved, and the

@@ -38,7 +38,7 @@ constexpr std::array kFormats = {
     ImageFormat{kLensImage, 4, 3, false, "colour, warped for the lens; 0 outside of the view"},
 };
 
-constexpr std::uint32_t kMaxDepth = 16;
+constexpr std::uint32_t kMaxDepth = 16, kMaxLayers = 16;
 
 bool has_highlights(const scene::Scene& scene) {
     for (const scene::Material& m : scene.materials)
@@ -73,6 +73,9 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
         s.background[i] = scene.background[i];
     }
     frame::check(s);
+    if (options.layers < 1 || options.layers > kMaxLayers)
+        throw std::invalid_argument(
+            fmt::format("layers {} is not between 1 and {}", options.layers, kMaxLayers));
     if (options.depth > kMaxDepth)
         throw std::invalid_argument(
             fmt::format("depth {} is not between 0 and {}", options.depth, kMaxDepth));
@@ -139,7 +142,8 @@ struct Renderer::State {
                             tracer, settings.width, settings.height, lights,
                             settings.ambient_occlusion_samples, has_highlights(scene), ray_totals,
                             o.lanes == 0 ? stage::lanes_for(device) : o.lanes, o.width, o.height,
-                            frame::has_optics(scene) ? o.depth : 0},
+                            frame::has_optics(scene) ? o.depth : 0, 0,
+                            on_device->blended ? o.layers : 0, on_device->blended.get()},
                            o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
         std::set<std::string> outputs(o.images.begin(), o.images.end());

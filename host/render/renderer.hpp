@@ -42,7 +42,8 @@ struct Options {
     std::uint32_t samples_per_pixel = 1;          // 1..65536
     float lod_bias = 0.0f; // levels that every texture lookup goes up, -16..16
     std::uint32_t seed = 0;
-    std::uint32_t depth = 1; // levels of reflected and refracted rays, 0..16
+    std::uint32_t depth = 1;  // levels of reflected and refracted rays, 0..16
+    std::uint32_t layers = 4; // blended surfaces kept along a ray, 1..16
     std::uint32_t lanes = 0; // ray slots to a work-item of the shading kernels: 1, 16; 0: by device
     std::string variant;     // a traversal variant for all rays; empty: chosen for device and rays
     // Of the display; without them the camera's vertical field of view and square pixels.

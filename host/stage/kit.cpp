@@ -15,7 +15,30 @@ Kit Kit::at_level(std::uint32_t of_rays) const {
     return kit;
 }
 
+Kit Kit::at_layers() const {
+    return {device,
+            library,
+            blended->geometry,
+            blended->surfaces,
+            tracer,
+            width,
+            height,
+            lights,
+            ambient_occlusion_samples,
+            highlights,
+            ray_totals,
+            lanes,
+            target_width,
+            target_height,
+            depth,
+            kLayers,
+            layers,
+            blended};
+}
+
 std::string Kit::named(const std::string& what) const {
+    if (level == kLayers)
+        return "layer " + what;
     return level == 0 ? what : "bounce " + std::to_string(level) + " " + what;
 }
 
@@ -41,6 +64,12 @@ frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t 
 
 frame::Resource of_level(const Kit& kit, const std::string& what, std::uint32_t element_bytes) {
     return {kit.named(what), element_bytes, kit.slots(), kit.level == 0 ? "" : "bounce " + what};
+}
+
+frame::Resource of_list(const Kit& kit, const std::string& what, std::uint32_t element_bytes,
+                        std::uint32_t per) {
+    const char* turn = kit.level % 2 == 0 ? "even bounce " : "odd bounce ";
+    return {kit.named(what), element_bytes, kit.slots() / per, turn + what};
 }
 
 frame::Resource per_pixel(const Kit& kit, const std::string& name, std::uint32_t element_bytes) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/cl/device.hpp"
+#include "host/frame/blended.hpp"
 #include "host/frame/geometry.hpp"
 #include "host/frame/graph.hpp"
 #include "host/frame/surfaces.hpp"
@@ -38,9 +39,15 @@ struct Kit {
     std::uint32_t depth = 0;
     // Of the rays that a stage is made for: 0, the primary ones.
     std::uint32_t level = 0;
+    // Blended layers that are kept along a ray, and their geometry; 0 where nothing is blended.
+    std::uint32_t layers = 0;
+    frame::DeviceBlended* blended = nullptr;
 
+    static constexpr std::uint32_t kLayers = 0xffffffffu; // the level of the blended layers
     Kit at_level(std::uint32_t of_rays) const;
-    // A resource or launch of this level: "hits", "bounce 1 hits".
+    // For the list of the blended layers: geometry and surfaces are theirs, rays meet the others.
+    Kit at_layers() const;
+    // A resource or launch of this level: "hits", "bounce 1 hits", "layer hits".
     std::string named(const std::string& what) const;
     std::string rays() const; // "primary rays", "bounce 1 rays"
     // Of the level's list: as many as the order of lib/camera.h has (a multiple of 1024); twice
@@ -66,6 +73,10 @@ frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t 
 // The same for the rays of the kit's level, of that name. Secondary levels take turns in the same
 // memory.
 frame::Resource of_level(const Kit& kit, const std::string& what, std::uint32_t element_bytes);
+// A part of the list of a secondary level's rays: two levels exist at once, in two memories that
+// take turns. `per`: entries that share an element.
+frame::Resource of_list(const Kit& kit, const std::string& what, std::uint32_t element_bytes,
+                        std::uint32_t per = 1);
 frame::Resource per_pixel(const Kit& kit, const std::string& name, std::uint32_t element_bytes);
 
 } // namespace macula::stage

@@ -21,6 +21,7 @@ void require(bool holds, const char* what) {
 
 void check(const LogPolarOptions& o) {
     require(o.alpha >= 1.0f && o.alpha <= 16.0f, "alpha must be 1 to 16");
+    require(o.rect_alpha >= 1.0f && o.rect_alpha <= 16.0f, "alpha of logrect must be 1 to 16");
     require(o.sigma >= 1.0f && o.sigma <= 16.0f, "sigma must be 1 to 16");
     require(o.disk >= 0.0f && o.disk <= 10.0f, "the disk's radius must be 0 to 10 half diagonals");
     require(o.disk_degrees >= 0.0f && o.disk_degrees < 80.0f,
@@ -87,14 +88,17 @@ std::uint32_t LogPolarKit::packets() const {
     return disk_packets() + shared::slot_count(p.width, p.height) / MACULA_RAY_BLOCK;
 }
 
+kernel::VariantKey LogPolarKit::program(const char* name) const {
+    return kernel::VariantKey(name).parameter("rectangular", rectangular ? 1 : 0);
+}
+
 frame::Stage place_fovea(const LogPolarKit& kit) {
     frame::Stage stage;
     stage.name = "place the fovea";
     stage.writes = {{"fovea", sizeof(shared::Fovea), 1}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto kernel =
-            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "place_fovea", kit.kit.device);
+        auto kernel = kit.kit.library.kernel(kit.program(kGenerate), "place_fovea", kit.kit.device);
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel.set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"])
                 .launch(name, {1}, {1});
@@ -114,7 +118,7 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
         auto choose =
-            kit.kit.library.kernel(kernel::VariantKey(kGenerate), "choose_samples", kit.kit.device);
+            kit.kit.library.kernel(kit.program(kGenerate), "choose_samples", kit.kit.device);
         auto sum =
             std::make_shared<kernel::PrefixSum>(kit.kit.library, kit.kit.device, kit.packets());
         const std::uint32_t packets = kit.packets();
@@ -145,8 +149,8 @@ frame::Stage log_polar_rays(const LogPolarKit& kit) {
         {"ray count", 4, 1},
     };
     stage.prepare = [kit, name = stage.name] {
-        auto kernel = kit.kit.library.kernel(kernel::VariantKey(kGenerate),
-                                             "generate_log_polar_rays", kit.kit.device);
+        auto kernel = kit.kit.library.kernel(kit.program(kGenerate), "generate_log_polar_rays",
+                                             kit.kit.device);
         return [kit, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
@@ -168,7 +172,8 @@ frame::Stage remap_log_polar(const LogPolarKit& kit) {
     stage.prepare = [kit, name = stage.name] {
         auto place = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar"), "place_samples",
                                             kit.kit.device);
-        auto remap = kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
+        auto remap = kit.rectangular ? kit.kit.lane_kernel("remap/log_rect", "remap_log_rect")
+                                     : kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
         return [kit, name, place, remap](frame::Run& run) mutable {
             const compute::Buffer& texels = run["log-polar colour"];
             place

@@ -31,6 +31,7 @@ struct LogPolarOptions {
     float disk_degrees = 0.0f; // above 0: the disk's radius as an angle instead, below 80
     float fade = 0.15f;        // part of the radius in which it passes into the buffer, 0..1
     LodRule lod = LodRule::footprint;
+    float rect_alpha = 1.0f; // what method logrect has instead of alpha, 1..16
 };
 
 // For width x height pixels to be rendered, of which a picture of another size may be made: 0: the
@@ -58,9 +59,14 @@ class LogPolarBuffer {
 struct LogPolarKit {
     Kit kit;
     std::shared_ptr<LogPolarBuffer> buffer;
+    // The buffer is log-rectilinear (Li et al. 2021): columns and rows are the image's, each warped
+    // around the gaze.
+    bool rectangular = false;
 
     std::uint32_t disk_packets() const; // of 4 x 4 pixels
     std::uint32_t packets() const;      // and of 4 x 4 texels
+    // The key of a program that knows both kinds of buffer.
+    kernel::VariantKey program(const char* name) const;
 };
 
 // "fovea": where the gaze meets the image.

@@ -11,13 +11,6 @@ namespace {
 constexpr const char* kProgram = "shade/secondary";
 constexpr std::uint32_t kClasses = 16; // of weight, with room to spare
 
-// Two levels' rays exist at once, in two memories that take turns.
-frame::Resource of_list(const Kit& kit, const char* what, std::uint32_t element_bytes,
-                        std::uint32_t per = 1) {
-    const char* turn = kit.level % 2 == 0 ? "even bounce " : "odd bounce ";
-    return {kit.named(what), element_bytes, kit.slots() / per, std::string(turn) + what};
-}
-
 class SecondaryRays {
   public:
     SecondaryRays(const Kit& kit, std::string spreads)

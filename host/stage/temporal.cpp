@@ -80,9 +80,11 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
                      {"texel motions", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
-        auto summarise = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar_texels"),
-                                                "summarise_texels", kit.kit.device);
-        auto remap = kit.kit.lane_kernel("remap/log_polar_surface", "remap_surfaces");
+        constexpr const char* program = "remap/log_polar_surface";
+        auto summarise =
+            kit.kit.library.kernel(kit.program(program), "summarise_texels", kit.kit.device);
+        auto remap = kit.kit.library.kernel(kit.program(program).parameter("lanes", kit.kit.lanes),
+                                            "remap_surfaces", kit.kit.device);
         return [=](frame::Run& run) mutable {
             const shared::LogPolarParams& p = kit.buffer->params();
             const std::uint64_t across = (p.width + MACULA_RAY_BLOCK - 1) / MACULA_RAY_BLOCK;

@@ -1,7 +1,7 @@
-/* Rays of kernel log-polar foveation (Mrad 2022, section 4.2): the pixels of the foveal disk and
- * the texels of the log-polar buffer around it, in one list. Both are chosen by packets of 4 x 4 in
- * the order of lib/camera.h, the disk's first, so that neighbours in the list lie close together.
- */
+/* Rays of log-polar foveation (Mrad 2022, section 4.2) and log-rectilinear foveation (Li et al.
+ * 2021): the pixels of the foveal disk and the texels of the buffer around it, in one list. Both
+ * are chosen by packets of 4 x 4 in the order of lib/camera.h, the disk's first, so that neighbours
+ * in the list lie close together. */
 #include "lib/camera_ray.h"
 #include "lib/log_polar.h"
 #include "lib/random.h"
@@ -12,6 +12,19 @@
 static inline float distance_of(float x, float y) {
     return m_sqrt(fma(x, x, y * y));
 }
+
+/* A point of the buffer in the image. */
+typedef struct Sample {
+    float x, y;
+    TexelSize texel;
+} Sample;
+
+/* 1 for the log-rectilinear buffer. */
+#if MACULA_RECTANGULAR
+#include "generate/texels_rect.h"
+#else
+#include "generate/texels_polar.h"
+#endif
 
 /* One work-item. */
 kernel void place_fovea(global const FrameParams* restrict frame,
@@ -33,7 +46,8 @@ kernel void place_fovea(global const FrameParams* restrict frame,
     const float secant = fma(right, right, fma(up, up, 1.0f));
     const float by_angle = params->disk_tangent * m_sqrt(per_x * per_y) * secant;
     const float by_size = params->disk * 0.5f * distance_of(width, height);
-    const float radius = (params->disk_tangent > 0.0f ? by_angle : by_size) * frame->gaze_widening;
+    const float wanted = (params->disk_tangent > 0.0f ? by_angle : by_size) * frame->gaze_widening;
+    const float radius = fitting_radius(frame, params, x, y, wanted);
     fovea->x = x;
     fovea->y = y;
     fovea->log_far = m_log2(far + 1.0f);
@@ -43,35 +57,9 @@ kernel void place_fovea(global const FrameParams* restrict frame,
     fovea->pad = 0u;
     /* What surrounds the disk is read between three columns; jitter shifts them by up to a half. */
     const bool jittered = frame->jitter[0] != 0.0f || frame->jitter[1] != 0.0f;
-    const float first =
-        log_polar_column(params, fovea, fovea->inner) - (jittered ? 3.0f : 2.0f);
-    fovea->first_column = radius >= far ? params->width : (first > 0.0f ? (uint)first : 0u);
-}
-
-/* A point of the buffer in the image. */
-typedef struct Sample {
-    float x, y;
-    TexelSize texel;
-} Sample;
-
-static inline Sample sample_at(global const LogPolarParams* params, global const Fovea* fovea,
-                               float column, float row) {
-    const float distance = log_polar_distance(params, fovea, column);
-    float cosine;
-    const float sine = log_polar_direction(params, row, &cosine);
-    Sample s;
-    s.x = fma(distance, cosine, fovea->x);
-    s.y = fma(distance, sine, fovea->y);
-    s.texel = log_polar_texel(params, fovea, column, distance);
-    return s;
-}
-
-/* True where some of the texel may lie in the image: each pixel then finds its texel sampled. Half
- * of a texel's diagonal, and a little more for its being bent. */
-static inline bool reaches_image(global const FrameParams* frame, const Sample* s) {
-    const float reach = 0.6f * distance_of(s->texel.along, s->texel.around);
-    return s->x >= -reach && s->y >= -reach && s->x < (float)frame->width + reach &&
-           s->y < (float)frame->height + reach;
+    const float first = log_polar_column(params, fovea, fovea->inner) - (jittered ? 3.0f : 2.0f);
+    const uint needed = MACULA_RECTANGULAR || first < 0.0f ? 0u : (uint)first;
+    fovea->first_column = radius >= far ? params->width : needed;
 }
 
 static inline bool in_disk(global const FrameParams* frame, global const Fovea* fovea, uint x,
@@ -85,6 +73,7 @@ static inline uint choose_texels(global const FrameParams* frame,
                                  global const LogPolarParams* params, global const Fovea* fovea,
                                  uint packet, global float4* buffer) {
     const uint width = params->width;
+    const Texels all = make_texels(frame, params, fovea);
     uint column0, row0, bits = 0u;
     pixel_of_slot(packet * MACULA_RAY_BLOCK, width, &column0, &row0);
     for (uint lane = 0u; lane < MACULA_RAY_BLOCK; ++lane) {
@@ -94,11 +83,10 @@ static inline uint choose_texels(global const FrameParams* frame,
         global float4* texels = buffer + row * params->pitch;
         if (column == 0u)
             texels[0] = texels[width + 1u] = (float4)(0.0f);
-        if (column < fovea->first_column)
-            continue;
-        const Sample middle = sample_at(params, fovea, (float)column + 0.5f, (float)row + 0.5f);
-        texels[column + 1u] = (float4)(0.0f);
-        bits |= reaches_image(frame, &middle) ? 1u << lane : 0u;
+        const bool needed = is_read(&all, column, row);
+        if (needed || MACULA_RECTANGULAR)
+            texels[column + 1u] = (float4)(0.0f);
+        bits |= needed && reaches_image(&all, column, row) ? 1u << lane : 0u;
     }
     return bits;
 }
@@ -158,6 +146,7 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
     const uint packet = (uint)get_global_id(0);
     const uint pixels = frame->width * frame->height;
     const List list = {rays, places, spreads};
+    const Texels texels = make_texels(frame, params, fovea);
     if (packet == 0u) {
         const uint total = min(*sum, params->capacity);
         pad_list(rays, places, total);
@@ -176,21 +165,21 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
         const uint column = x0 + (lane & 3u), row = y0 + (lane >> 2);
         const uint place =
             disk ? row * across + column : pixels + row * params->pitch + column + 1u;
-        float dx, dy, x, y, spread = 1.0f;
+        float dx, dy, x, y, spread = 1.0f, bias_column = 0.0f;
         sample_offset(frame, random_key(place, frame->frame, frame->seed), sample,
                       frame->sample_grid, &dx, &dy);
         x = (float)column + dx;
         y = (float)row + dy;
         if (!disk) {
-            const Sample s = sample_at(params, fovea, x, y);
+            bias_column = lod_column(&texels, x, y);
+            const Sample s = sample_at(&texels, x, y);
             x = s.x;
             y = s.y;
             /* The side of a square of the texel's area. */
             spread = m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f) * params->spread_scale;
         }
         if (params->thesis_lod != 0u)
-            spread = log_polar_thesis_spread(params, disk ? 0.0f : (float)column + dx) *
-                     params->spread_scale;
+            spread = log_polar_thesis_spread(params, bias_column) * params->spread_scale;
         add_ray(&list, frame, slot, place, x, y, spread);
     }
 }

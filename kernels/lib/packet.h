@@ -40,13 +40,6 @@ typedef struct Packet {
     bool plain;          /* small enough for plain hits (lib/plain_hit.h) */
 } Packet;
 
-/* Asks the cache for a block of the queue: the next one that this work-item, or the one after it on
- * the same core, will load. */
-static inline void fetch_block(global const RayBlock* block) {
-    for (uint offset = 0u; offset < sizeof(RayBlock); offset += 64u)
-        MACULA_FETCH(block, offset);
-}
-
 /* False when no lane is active. `count`: rays of the queue from the block's first one on. */
 static inline bool load_packet(global const RayBlock* block, uint count, QueuedPacket* p) {
     const uint lanes = count < MACULA_RAY_BLOCK ? count : MACULA_RAY_BLOCK;

@@ -25,4 +25,11 @@ static inline float16 reach16(float16 ox, float16 oy, float16 oz) {
     return m_max(m_max(fabs(ox), fabs(oy)), m_max(fabs(oz), (float16)(0x1p-20f)));
 }
 
+/* Asks the cache for a block of the queue: one that this work-item, or the next one on the same
+ * core, will load. */
+static inline void fetch_block(global const RayBlock* block) {
+    for (uint offset = 0u; offset < sizeof(RayBlock); offset += 64u)
+        MACULA_FETCH(block, offset);
+}
+
 #endif

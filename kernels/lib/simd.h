@@ -5,7 +5,27 @@
 
 #include "lib/math_vector.h"
 
-/* `mask` is the result of a comparison: each lane 0 or -1. */
+/* `mask` is the result of a comparison: each lane 0 or -1. Where there are mask registers, they say
+ * at once what elsewhere is put together from bytes. */
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+typedef int Native8 __attribute__((vector_size(32)));
+typedef int Native16 __attribute__((vector_size(64)));
+#define MACULA_NATIVE8(v) __builtin_astype(v, Native8)
+#define MACULA_NATIVE16(v) __builtin_astype(v, Native16)
+
+static inline bool any_lane16(int16 mask) {
+    return (ushort)__builtin_ia32_cvtd2mask512(MACULA_NATIVE16(mask)) != 0;
+}
+
+/* Bit n is set where lane n of such a mask is not 0. */
+static inline uint bits_of_lanes16(int16 mask) {
+    return (ushort)__builtin_ia32_cvtd2mask512(MACULA_NATIVE16(mask));
+}
+
+static inline uint bits_of_lanes8(int8 mask) {
+    return (uchar)__builtin_ia32_cvtd2mask256(MACULA_NATIVE8(mask));
+}
+#else
 static inline bool any_lane16(int16 mask) {
     const long2 halves = as_long2(convert_char16(mask));
     return (halves.x | halves.y) != 0;
@@ -17,6 +37,12 @@ static inline uint bits_of_lanes16(int16 mask) {
     const ulong2 bits = bytes * 0x0101010101010101ul >> 56;
     return (uint)(bits.x | bits.y << 8);
 }
+
+static inline uint bits_of_lanes8(int8 mask) {
+    const ulong bytes = as_ulong(convert_char8(mask)) & 0x8040201008040201ul;
+    return (uint)(bytes * 0x0101010101010101ul >> 56);
+}
+#endif
 
 static inline uint first_lane(uint bits) {
     return popcount((bits & -bits) - 1u);
@@ -65,9 +91,6 @@ static inline float8 least_lanes16(const float16 v[8]) {
  * on; what follows them is of no meaning. Instructions of AVX-512, which compilers do not find by
  * themselves; elsewhere a store of each lane. */
 #if defined(__AVX512VL__) && defined(__AVX512DQ__)
-typedef int Native8 __attribute__((vector_size(32)));
-#define MACULA_NATIVE8(v) __builtin_astype(v, Native8)
-
 static inline int8 permuted8(int8 v, int8 lane) {
     return __builtin_astype(__builtin_ia32_permvarsi256(MACULA_NATIVE8(v), MACULA_NATIVE8(lane)),
                             int8);

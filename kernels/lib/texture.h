@@ -107,5 +107,30 @@ MACULA_ALWAYS_INLINE Real3 sample_texture(const TextureTables* tables, Uint inde
     return lerp3(first, bilinear(tables, &t, coarser), blend);
 }
 
+/* One channel as it is stored, 0..1; `shift`: its first bit in a texel. Bilinear in the nearest
+ * level: for the shapes of alpha. */
+MACULA_ALWAYS_INLINE Real sample_channel(const TextureTables* tables, Uint index, uint shift,
+                                         Real u, Real v, Real lod) {
+    const TextureAt t = texture_at(tables, index, u, v);
+    const Real level = clamped(lod + t.log2_size, splat(0.0f), uint_to_real(t.last_level));
+    const Uint at = t.first_level + to_uint(level + 0.5f);
+    const Uint width = MACULA_GATHER(uint, tables->levels, at, .width);
+    const Uint height = MACULA_GATHER(uint, tables->levels, at, .height);
+    const Uint first = MACULA_GATHER(uint, tables->levels, at, .first_texel);
+    const Real x = fma(t.u, uint_to_real(width), splat(-0.5f));
+    const Real y = fma(t.v, uint_to_real(height), splat(-0.5f));
+    const Real x_floor = floor(x), y_floor = floor(y);
+    const Int i = to_int(x_floor), j = to_int(y_floor);
+    const Uint x0 = wrapped_texel(i, width, t.wrap_u), x1 = wrapped_texel(i + 1, width, t.wrap_u);
+    const Uint row0 = first + wrapped_texel(j, height, t.wrap_v) * width;
+    const Uint row1 = first + wrapped_texel(j + 1, height, t.wrap_v) * width;
+    const Real a = uint_to_real((MACULA_GATHER(uint, tables->texels, row0 + x0, ) >> shift) & 255u);
+    const Real b = uint_to_real((MACULA_GATHER(uint, tables->texels, row0 + x1, ) >> shift) & 255u);
+    const Real c = uint_to_real((MACULA_GATHER(uint, tables->texels, row1 + x0, ) >> shift) & 255u);
+    const Real d = uint_to_real((MACULA_GATHER(uint, tables->texels, row1 + x1, ) >> shift) & 255u);
+    const Real above = fma(b - a, x - x_floor, a), below = fma(d - c, x - x_floor, c);
+    return fma(below - above, y - y_floor, above) * m_divide(1.0f, 255.0f);
+}
+
 MACULA_SHARED_END
 #endif

@@ -29,7 +29,7 @@ static inline void put_entry(MaskedEntry* stack, int place, uint child, int mask
 }
 
 static inline uint entered_children8(int8 masks) {
-    return (uint)popcount(lane_mask8(masks != 0)) >> 3;
+    return (uint)popcount(bits_of_lanes8(masks != 0));
 }
 
 #endif

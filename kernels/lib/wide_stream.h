@@ -69,13 +69,11 @@ static inline void fetch_child(const TraceScene* scene, int child) {
     MACULA_FETCH(address, 256);
 }
 
-/* Chunks that a traversal advances in turn: what one finds in a node takes longer to know than to
- * compute, and meanwhile the other computes. */
-#define MACULA_STREAM_CHUNKS 2u
-
 typedef struct StreamWalk {
     int child[MACULA_STREAM_STACK];
     int rays[MACULA_STREAM_STACK]; /* those that enter the child */
+    /* At most the t at which one does. */
+    float near[MACULA_ANY_HIT ? 1 : MACULA_STREAM_STACK];
     uint depth;
     uint answered; /* rays whose query is answered */
 } StreamWalk;
@@ -86,6 +84,9 @@ static inline void start_walk(StreamWalk* walk, int root, uint rays) {
     walk->rays[MACULA_STREAM_BOTTOM] = (int)rays;
     walk->depth = MACULA_STREAM_BOTTOM + (rays != 0u ? 1u : 0u);
     walk->answered = 0u;
+#if !MACULA_ANY_HIT
+    walk->near[MACULA_STREAM_BOTTOM] = 0.0f;
+#endif
 }
 
 /* Puts the children that are entered on the stack. The one that is entered first by some ray of a
@@ -102,15 +103,26 @@ static inline void push_rays(StreamWalk* walk, global const Wide8Node* node,
     const int8 order = sorted8(child_keys8(found->rays, as_int8(found->nearest) & ~7));
     vstore8(permuted8(child, order), 0, walk->child + walk->depth);
     vstore8(permuted8(found->rays, order), 0, walk->rays + walk->depth);
+    vstore8(as_float8(permuted8(as_int8(found->nearest), order)), 0, walk->near + walk->depth);
 #endif
     walk->depth += entered_children8(found->rays);
+}
+
+/* The rays that may still hit something in entry `top` of the stack. */
+static inline uint unfinished_rays(const Stream* s, const StreamWalk* walk, uint top) {
+#if MACULA_ANY_HIT
+    return ~walk->answered;
+#else
+    const float16 near = walk->near[top];
+    return bits_of_lanes16(near <= s->t_max[0]) | bits_of_lanes16(near <= s->t_max[1]) << 16;
+#endif
 }
 
 /* Visits the node or leaf on top of the stack. */
 static inline void step_walk(const TraceScene* scene, Stream* s, const StreamClass* c,
                              StreamWalk* walk) {
     const uint top = --walk->depth;
-    const uint left = (uint)walk->rays[top] & ~walk->answered;
+    const uint left = (uint)walk->rays[top] & unfinished_rays(s, walk, top);
     const int child = walk->child[top];
     if (left == 0u)
         return;
@@ -126,16 +138,8 @@ static inline void step_walk(const TraceScene* scene, Stream* s, const StreamCla
     fetch_child(scene, walk->child[walk->depth - 2u]);
 }
 
-/* `s` and `walk`: one for each chunk. */
-static inline void traverse_stream(const TraceScene* scene, Stream* s, const StreamClass* c,
-                                   StreamWalk* walk) {
-    while (((walk[0].depth ^ MACULA_STREAM_BOTTOM) | (walk[1].depth ^ MACULA_STREAM_BOTTOM)) !=
-           0u) {
-        if (walk[0].depth != MACULA_STREAM_BOTTOM)
-            step_walk(scene, s, c, walk);
-        if (walk[1].depth != MACULA_STREAM_BOTTOM)
-            step_walk(scene, s + 1, c, walk + 1);
-    }
+static inline bool is_walking(const StreamWalk* walk) {
+    return walk->depth != MACULA_STREAM_BOTTOM;
 }
 
 #endif

@@ -68,11 +68,11 @@ static inline uint traverse_instance_of_rays(const TraceScene* scene, StreamChun
         if (of_class[i] == 0u)
             continue;
         const StreamClass c = stream_class(i, &sizes);
-        StreamWalk walk[MACULA_STREAM_CHUNKS];
-        start_walk(walk, instance->root, of_class[i]);
-        start_walk(walk + 1, instance->root, 0u);
-        traverse_stream(scene, s, &c, walk);
-        answered |= walk[0].answered;
+        StreamWalk walk;
+        start_walk(&walk, instance->root, of_class[i]);
+        while (is_walking(&walk))
+            step_walk(scene, s, &c, &walk);
+        answered |= walk.answered;
     }
 #if !MACULA_ANY_HIT
     for (; rays != 0u; rays &= rays - 1u) {

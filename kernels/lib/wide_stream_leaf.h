@@ -12,6 +12,7 @@
 /* A chunk of rays. Bit k of a ray mask stands for ray k. */
 typedef struct Stream {
     StreamRay* ray;
+    float16 t_max[2]; /* the best t so far, of closest-hit queries */
     TraceHit best[MACULA_ANY_HIT ? 1 : MACULA_STREAM_LANES];
     /* Of the instance being traversed: */
 #if MACULA_INSTANCES
@@ -129,6 +130,7 @@ static inline bool take_lane(const TraceScene* scene, Stream* s, uint k, uint id
 #if !MACULA_ANY_HIT
     s->best[k] = query.best;
     s->ray[k].value[MACULA_ROW_T_MAX] = query.ray.t_max;
+    ((float*)s->t_max)[k] = query.ray.t_max;
 #endif
     return answered;
 }

@@ -1,6 +1,8 @@
-/* What the pixels of kernel log-polar foveation show, for what gathers samples over frames: where
- * it was and how far away. Beyond the disk a sample stands for many pixels, and the next frame's
- * for others there: motion is the mean over the samples around a pixel, depth their range. */
+/* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
+ * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
+ * next frame's for others there: motion is the mean over the samples around a pixel, depth their
+ * range. */
+#include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
 
@@ -9,23 +11,74 @@ typedef struct Place {
     Real column, row;
 } Place;
 
-static inline Place place_in_buffer(global const FrameParams* frame,
-                                    global const LogPolarParams* params, global const Fovea* fovea,
-                                    Real x, Real y, Real distance) {
-    const Real last = splat((float)(params->width - 1u)), half_texel = splat(0.5f);
-    const Real first = splat((float)min(fovea->first_column, params->width - 1u));
-    const Real column = log_polar_column(params, fovea, distance) - splat(frame->jitter[0]);
-    const Place p = {clamped(column - half_texel, first, last),
-                     log_polar_row(params, x, y) - splat(frame->jitter[1]) - half_texel};
-    return p;
+/* 1 for the log-rectilinear buffer. */
+#if MACULA_RECTANGULAR
+#include "remap/places_rect.h"
+#else
+#include "remap/places_polar.h"
+#endif
+
+static inline float luminance(float4 c) {
+    return fma(c.x, 0.2126f, fma(c.y, 0.7152f, c.z * 0.0722f));
 }
 
-/* The index of a texel; the buffer goes on around the gaze. */
-static inline Uint texel_at(global const LogPolarParams* params, Int column, Int row) {
-    const Int rows = splat_int((int)params->height);
-    const Int below = row < 0 ? row + rows : row;
-    const Int kept = below >= rows ? below - rows : below;
-    return int_to_uint(kept * (int)params->pitch + column + 1);
+/* Of three by three texels. */
+typedef struct Sums {
+    float least, most;                 /* depths */
+    float light, squares, count;       /* of their luminance */
+    float motion_x, motion_y, movable; /* of those that were in view */
+} Sums;
+
+static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
+    const float light = luminance(colour);
+    sums->least = m_min(sums->least, surface.x);
+    sums->most = m_max(sums->most, surface.x);
+    sums->light = sums->light + light;
+    sums->squares = fma(light, light, sums->squares);
+    sums->count = sums->count + 1.0f;
+    if (fabs(surface.y) < MACULA_NO_MOTION && fabs(surface.z) < MACULA_NO_MOTION) {
+        sums->motion_x = sums->motion_x + surface.y;
+        sums->motion_y = sums->motion_y + surface.z;
+        sums->movable = sums->movable + 1.0f;
+    }
+}
+
+static inline void summarise(global const LogPolarParams* params, global const Fovea* fovea,
+                             global const float4* colours, global const float4* surfaces,
+                             global float2* ranges, global float4* motions, uint column, uint row) {
+    Sums sums = {MACULA_BACKGROUND_DEPTH, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    for (uint k = 0u; k < 9u; ++k) {
+        const uint i = column + k % 3u; /* a row begins with an empty texel */
+        const uint at = row_of_texels(params, (int)(row + k / 3u) - 1) * params->pitch + i;
+        if (i > fovea->first_column && i <= params->width && colours[at].w > 0.0f)
+            add_texel(&sums, colours[at], surfaces[at]);
+    }
+    const float share = m_divide(1.0f, m_max(sums.count, 1.0f)), mean = sums.light * share;
+    const float variance = fma(-mean, mean, sums.squares * share);
+    const float spread = variance > 1e-12f ? m_sqrt(variance) : 0.0f;
+    const float moved = m_divide(1.0f, m_max(sums.movable, 1.0f));
+    const uint to = row * params->pitch + column + 1u;
+    ranges[to] = (float2)(sums.least, sums.most);
+    motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
+                           sums.movable > 0.0f ? 1.0f : 0.0f);
+}
+
+/* One work-item MACULA_RAY_BLOCK texels of a row. ranges: the least and the greatest depth of three
+ * by three texels; motions: their mean, the deviation of the luminance, 1. Texels without a sample
+ * have colours whose alpha is 0. */
+kernel void summarise_texels(global const LogPolarParams* restrict params,
+                             global const Fovea* restrict fovea,
+                             global const float4* restrict colours,
+                             global const float4* restrict surfaces,
+                             global float2* restrict ranges, global float4* restrict motions) {
+    const uint across = (params->width + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK;
+    const uint item = (uint)get_global_id(0), row = item / across;
+    const uint first = item % across * MACULA_RAY_BLOCK;
+    if (row >= params->height)
+        return;
+    const uint end = min(first + MACULA_RAY_BLOCK, params->width);
+    for (uint column = max(first, fovea->first_column); column < end; ++column)
+        summarise(params, fovea, colours, surfaces, ranges, motions, column, row);
 }
 
 /* Between two by two texels; those without motion count nothing, and none at all: no motion. */
@@ -74,8 +127,8 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     if (any_lane(strip_inside(&s) & beyond)) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
-        const Place p = place_in_buffer(frame, params, fovea, x, y,
-                                        m_max(distance, splat(fovea->inner)));
+        const Place p =
+            place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
         const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
         const Lane4 motion = motion_at(params, motions, &p);
         depths.least = MACULA_GATHER(float, ranges, nearest, .x);

@@ -86,6 +86,8 @@
     STRUCT(SurfaceOptics)                                                                          \
     MEMBER(SurfaceOptics, index_of_refraction)                                                     \
     MEMBER(SurfaceOptics, transmission)                                                            \
+    MEMBER(SurfaceOptics, opacity)                                                                 \
+    MEMBER(SurfaceOptics, opacity_texture)                                                         \
     MEMBER(SurfaceOptics, diffuse_part)                                                            \
     STRUCT(WeierParams)                                                                            \
     MEMBER(WeierParams, p_min)                                                                     \

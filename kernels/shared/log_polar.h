@@ -29,7 +29,8 @@ typedef struct Fovea {
     float inverse_log_far;
     float radius;      /* of the foveal disk, pixels */
     float inner;       /* from here to `radius` the disk passes into what surrounds it */
-    uint first_column; /* of the buffer that is needed; columns before it lie within the disk */
+    uint first_column; /* of the buffer that is needed; columns before it lie within the disk. Of a
+                        * log-rectilinear buffer: 0, or its width where nothing of it is needed */
     uint pad;
 } Fovea;
 MACULA_ASSERT_SIZE(Fovea, 32);

@@ -41,16 +41,20 @@ typedef struct SurfaceMaterial {
 } SurfaceMaterial;
 MACULA_ASSERT_SIZE(SurfaceMaterial, 64);
 
+#define MACULA_ALPHA_CHANNEL 0x80000000u
+
 /* What a material does besides Phong shading (lib/optics.h). One a material. */
 typedef struct SurfaceOptics {
     float reflectivity[3]; /* weight of a mirrored ray at all angles */
     float index_of_refraction;
     float transmission[3]; /* weight that Fresnel's equations split into two rays */
-    uint pad;
+    float opacity;         /* of blended materials, without their texture */
     /* Factor on the diffuse colour: where colour, reflectivity and transmission sum to more than
      * one, less is left to be diffuse. */
     float diffuse_part[3];
-    uint pad_diffuse;
+    /* Texture that opacity is multiplied by, or MACULA_NO_TEXTURE: its red channel, or with
+     * MACULA_ALPHA_CHANNEL added its alpha. */
+    uint opacity_texture;
 } SurfaceOptics;
 MACULA_ASSERT_SIZE(SurfaceOptics, 48);
 

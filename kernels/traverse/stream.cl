@@ -26,25 +26,26 @@ static inline uchar16 bins_of(global const RayBlock* block, uint left, float16* 
     return convert_uchar16(active ? ray_class : (int16)((int)INACTIVE));
 }
 
-/* A counting sort: bin b of the rays goes to [begin[b], begin[b + 1]), in order. */
-static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRays* q,
-                             uint begin[BINS + 1u]) {
+/* A counting sort. Rays of a bin stay in order. */
+static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRays* q) {
     uchar bin[MACULA_RAYS_PER_ITEM];
     uint next[BINS];
     float16 reach = 0x1p-20f, speed = 0.0f;
-    for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK)
-        vstore16(bins_of(blocks + i / MACULA_RAY_BLOCK, count - i, &reach, &speed), 0,
-                 bin + i);
+    for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK) {
+        global const RayBlock* block = blocks + i / MACULA_RAY_BLOCK;
+        fetch_block(block + 4);
+        vstore16(bins_of(block, count - i, &reach, &speed), 0, bin + i);
+    }
     q->sizes.reach = greatest_lane16(reach);
     q->sizes.speed = greatest_lane16(speed);
     for (uint b = 0u; b < BINS; ++b)
         next[b] = 0u;
     for (uint i = 0u; i < count; ++i)
         ++next[bin[i]];
-    begin[0] = 0u;
+    q->begin[0] = 0u;
     for (uint b = 0u; b < BINS; ++b) {
-        begin[b + 1u] = begin[b] + next[b];
-        next[b] = begin[b];
+        q->begin[b + 1u] = q->begin[b] + next[b];
+        next[b] = q->begin[b];
     }
     for (uint i = 0u; i < count; i += MACULA_RAY_BLOCK) {
         float16 row[MACULA_RAY_BLOCK];
@@ -53,7 +54,7 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
         for (uint lane = 0u; lane < lanes; ++lane) {
             const uint b = bin[i + lane], to = next[b]++;
             q->ray[to].row = row[lane];
-            q->ray[to].value[MACULA_ROW_BIT] = as_float(1u << (to - begin[b]) % MACULA_CHUNK);
+            q->ray[to].value[MACULA_ROW_BIT] = as_float(1u << (to - q->begin[b]) % MACULA_CHUNK);
         }
     }
 }
@@ -69,12 +70,10 @@ kernel void trace(TRACE_ARGUMENTS) {
                               {mask_slots, mask_triangles, mask_textures, mask_words}};
     const uint rest = *ray_count - first;
     QueuedRays queued;
-    uint begin[BINS + 1u];
     sort_rays(rays + first / MACULA_RAY_BLOCK,
-              rest < MACULA_RAYS_PER_ITEM ? rest : MACULA_RAYS_PER_ITEM, &queued, begin);
-    for (uint i = 0u; i < INACTIVE; ++i)
-        trace_class(&scene, rays, &queued, begin[i], begin[i + 1u], i, first, results);
-    for (uint i = begin[INACTIVE]; i < begin[BINS]; ++i) {
+              rest < MACULA_RAYS_PER_ITEM ? rest : MACULA_RAYS_PER_ITEM, &queued);
+    trace_classes(&scene, rays, &queued, first, results);
+    for (uint i = queued.begin[INACTIVE]; i < queued.begin[BINS]; ++i) {
         const TraceHit miss = no_hit(queued.ray[i].value[MACULA_ROW_T_MAX]);
         store_result(results, first + queue_index(queued.ray + i), &miss);
     }

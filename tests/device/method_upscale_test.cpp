@@ -327,7 +327,7 @@ TEST_P(EachMode, OneAndSixteenLanesGiveTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, EachMode,
                          testing::Values("logpolar+taa", "logpolar+upscale", "logpolar+taa+upscale",
-                                         "full+upscale"),
+                                         "full+upscale", "logrect+taa", "logrect+taa+upscale"),
                          [](const auto& mode) {
                              std::string name = mode.param;
                              std::replace(name.begin(), name.end(), '+', '_');

@@ -119,7 +119,7 @@ TEST(Depth, ZeroIsThePictureOfTheSceneWithoutReflection) {
 
 TEST(Depth, AddsNoStageWhereNothingReflects) {
     const scene::Scene scene = scene::load("cornell");
-    for (const char* method : {"full", "weier", "lowres", "logpolar"}) {
+    for (const char* method : {"full", "weier", "lowres", "logpolar", "logrect"}) {
         render::Options o = options(4);
         o.method = method;
         render::Renderer renderer(device(), scene, o);
@@ -134,7 +134,7 @@ TEST(Depth, OutOfRangeIsAnError) {
 
 TEST(Depth, EveryMethodFollowsRays) {
     const scene::Scene scene = scene::load("whitted");
-    for (const char* method : {"full", "weier", "lowres", "logpolar"}) {
+    for (const char* method : {"full", "weier", "lowres", "logpolar", "logrect"}) {
         render::Options o = options(2);
         o.method = method;
         const std::string deep = hash_of(scene, o);

@@ -139,7 +139,7 @@ TEST(Penumbra, ItsNoiseIsGoneFromTheMeanOfItsFrames) {
 }
 
 TEST(SoftLights, HaveTheSameBitsInOneAndSixteenLanes) {
-    for (const char* method : {"full", "weier", "logpolar", "lowres"}) {
+    for (const char* method : {"full", "weier", "logpolar", "logrect", "lowres"}) {
         std::vector<std::string> hashes;
         for (const std::uint32_t lanes : {1u, 16u}) {
             render::Options o;

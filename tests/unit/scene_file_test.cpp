@@ -32,6 +32,7 @@ gaze = "centre"
 [[light]]
 kind = "directional"
 direction = [0, -2, 0]
+angle = 2.5
 colour = [1, 0.5, 0.25]
 intensity = 2.0
 
@@ -88,6 +89,8 @@ textures = false
     ASSERT_EQ(scene.lights.size(), 3u);
     EXPECT_EQ(scene.lights[0].direction, glm::vec3(0, -1, 0));
     EXPECT_EQ(scene.lights[0].colour, glm::vec3(2, 1, 0.5f));
+    EXPECT_EQ(scene.lights[0].angle, 2.5f);
+    EXPECT_EQ(scene.lights[1].angle, 0.27f);
     EXPECT_FLOAT_EQ(scene.lights[1].attenuation_distance, 4.0f);
     EXPECT_EQ(scene.lights[2].kind, LightKind::rectangle);
     ASSERT_EQ(scene.cameras.size(), 1u);
@@ -101,7 +104,8 @@ textures = false
 
 TEST_F(SceneFile, DisplayAndGazeFilesAreFoundBesideIt) {
     write("looks.csv", "time_ns,x,y,z\n0,0,0,-1\n");
-    write("mine.json", R"({"width": 4, "height": 3, "screen": {"width_mm": 400, "distance_mm": 600}})");
+    write("mine.json",
+          R"({"width": 4, "height": 3, "screen": {"width_mm": 400, "distance_mm": 600}})");
     const std::string trace = "trace:" + path("looks.csv");
     EXPECT_EQ(load_toml(kFile + "gaze = 'looks.csv'\n").gaze, trace);
     EXPECT_EQ(load_toml(kFile + "gaze = 'looks.csv:repeat'\n").gaze, trace + ":repeat");
@@ -146,6 +150,9 @@ TEST_F(SceneFile, ErrorsGiveFileLineAndKey) {
         {"[[light]]\nkind = 'spherical'\nposition = [0, 0, 0]\n",
          "key 'radius': a spherical light"},
         {"[[light]]\nkind = 'directional'\ndirection = [0, 0, 0]\n", ":4: key 'direction'"},
+        {"[[light]]\nkind = 'directional'\ndirection = [0, 1, 0]\nangle = 81\n",
+         ":5: key 'angle': 81 is not between"},
+        {"[[light]]\nposition = [0, 0, 0]\nangle = 1\n", ":4: key 'angle': there is no such key"},
         {"[[camera]]\neye = [0, 0, 0]\ntarget = [0, 0, 0]\n", ":4: key 'target': it is the same"},
         {"[path]\nframes = 0\n", ":3: key 'frames': 0 is not between"},
         {"[path]\nframes = 10\n", "key 'key': a camera path needs"},
