@@ -12,7 +12,7 @@ typedef struct Footprint {
     Int x, y; /* the pixel before the place */
     Real to_x, to_y;
     int first_x, first_y; /* the least of them */
-    bool straight;        /* they lie side by side, and so far from the edge that their taps exist */
+    bool straight;        /* they lie side by side, so far from the edge that all taps exist */
     bool close; /* or in two rows and less than sixteen columns, as those of most motions do */
     bool exact; /* no place lies between pixels */
 } Footprint;

@@ -268,7 +268,8 @@ TEST_P(EachMode, ACheckerboardKeepsItsMean) {
         WeierFrames frames(device(), scene, of_method(GetParam()));
         for (std::uint32_t frame = 0; frame < 16; ++frame)
             frames.run(frame, moved(scene, {step * float(frame), 0, 0}));
-        EXPECT_NEAR(mean_of(frames.read<Float4>(frames.picture())), 0.5, 0.01) << "step " << step;
+        // A foveated frame has about 2000 samples of 0 or 1: two deviations of their mean.
+        EXPECT_NEAR(mean_of(frames.read<Float4>(frames.picture())), 0.5, 0.022) << "step " << step;
     }
 }
 
