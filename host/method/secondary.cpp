@@ -17,6 +17,18 @@ void shade_list(std::vector<frame::Stage>& stages, const stage::Kit& list, bool 
                                   list.named("surface openness")));
 }
 
+// The name of the colour with the layers before the hits of the kit's rays.
+std::string blend_layers(std::vector<frame::Stage>& stages, const stage::Kit& kit,
+                         const std::string& spreads, bool occlusion, stage::PlaceRows rows,
+                         const std::string& colour) {
+    if (kit.layers == 0)
+        return colour;
+    stages.push_back(stage::collect_layers(kit, spreads));
+    shade_list(stages, kit.at_layers(), occlusion, rows);
+    stages.push_back(stage::add_layers(kit, colour));
+    return stages.back().writes.front().name;
+}
+
 } // namespace
 
 std::string add_secondary_rays(std::vector<frame::Stage>& stages, const stage::Kit& kit,
@@ -28,17 +40,12 @@ std::string add_secondary_rays(std::vector<frame::Stage>& stages, const stage::K
         const stage::Kit next = kit.at_level(level);
         stages.push_back(stage::secondary_rays(next, spreads));
         stages.push_back(stage::trace_secondary_rays(next));
+        colour = blend_layers(stages, next, {}, occlusion, rows, colour);
         shade_list(stages, next, occlusion, rows);
         stages.push_back(stage::add_secondary_light(next, colour));
         colour = stages.back().writes.front().name;
     }
-    if (kit.layers == 0)
-        return colour;
-    const stage::Kit layers = kit.at_layers();
-    stages.push_back(stage::collect_layers(kit, spreads));
-    shade_list(stages, layers, occlusion, rows);
-    stages.push_back(stage::add_layers(kit, colour));
-    return stages.back().writes.front().name;
+    return blend_layers(stages, kit, spreads, occlusion, rows, colour);
 }
 
 } // namespace macula::method

@@ -6,7 +6,7 @@ namespace macula::stage {
 
 std::uint32_t Kit::slots() const {
     const std::uint32_t of_pixels = shared::slot_count(width, height);
-    return level == 0 ? of_pixels : kRaysOfHit * of_pixels;
+    return primary() ? of_pixels : kRaysOfHit * of_pixels;
 }
 
 Kit Kit::at_level(std::uint32_t of_rays) const {
@@ -31,19 +31,19 @@ Kit Kit::at_layers() const {
             target_width,
             target_height,
             depth,
-            kLayers,
+            level,
             layers,
-            blended};
+            blended,
+            true};
 }
 
 std::string Kit::named(const std::string& what) const {
-    if (level == kLayers)
-        return "layer " + what;
-    return level == 0 ? what : "bounce " + std::to_string(level) + " " + what;
+    const std::string of_what = of_layers ? "layer " + what : what;
+    return level == 0 ? of_what : "bounce " + std::to_string(level) + " " + of_what;
 }
 
 std::string Kit::rays() const {
-    return level == 0 ? "primary rays" : named("rays");
+    return primary() ? "primary rays" : named("rays");
 }
 
 compute::Kernel Kit::lane_kernel(const char* program, const char* entry) const {
@@ -63,12 +63,14 @@ frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t 
 }
 
 frame::Resource of_level(const Kit& kit, const std::string& what, std::uint32_t element_bytes) {
-    return {kit.named(what), element_bytes, kit.slots(), kit.level == 0 ? "" : "bounce " + what};
+    return {kit.named(what), element_bytes, kit.slots(), kit.primary() ? "" : "bounce " + what};
 }
 
 frame::Resource of_list(const Kit& kit, const std::string& what, std::uint32_t element_bytes,
                         std::uint32_t per) {
-    const char* turn = kit.level % 2 == 0 ? "even bounce " : "odd bounce ";
+    const char* turn = kit.of_layers        ? "layer list "
+                       : kit.level % 2 == 0 ? "even bounce "
+                                            : "odd bounce ";
     return {kit.named(what), element_bytes, kit.slots() / per, turn + what};
 }
 

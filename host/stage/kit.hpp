@@ -43,13 +43,16 @@ struct Kit {
     std::uint32_t layers = 0;
     frame::DeviceBlended* blended = nullptr;
 
-    static constexpr std::uint32_t kLayers = 0xffffffffu; // the level of the blended layers
+    // For the list of the blended layers that lie before the hits of this level's rays.
+    bool of_layers = false;
+
     Kit at_level(std::uint32_t of_rays) const;
     // For the list of the blended layers: geometry and surfaces are theirs, rays meet the others.
     Kit at_layers() const;
-    // A resource or launch of this level: "hits", "bounce 1 hits", "layer hits".
+    // A resource or launch of this level: "hits", "bounce 1 hits", "bounce 1 layer hits".
     std::string named(const std::string& what) const;
     std::string rays() const; // "primary rays", "bounce 1 rays"
+    bool primary() const { return level == 0 && !of_layers; }
     // Of the level's list: as many as the order of lib/camera.h has (a multiple of 1024); twice
     // that for secondary rays.
     std::uint32_t slots() const;

@@ -9,7 +9,10 @@ namespace macula::stage {
 namespace {
 
 constexpr const char* kProgram = "shade/layers";
-constexpr const char* kThrough = "light through layers";
+
+std::string through_of(const Kit& kit) {
+    return kit.named("light through layers");
+}
 
 VariantTable variants_of(const Tracer& tracer) {
     VariantTable table;
@@ -30,13 +33,16 @@ class CollectLayers {
     void operator()(frame::Run& run) {
         const compute::Buffer none;
         const compute::Buffer& spreads = spreads_.empty() ? none : run[spreads_];
+        const auto of = [&](const char* what) { return run[kit_.named(what)]; };
+        const auto class_of_rays =
+            kit_.primary() ? kernel::RayClass::sparse : kernel::RayClass::diffuse;
         compute::Buffer& layers = run.scratch("layer hits found");
         compute::Buffer& ids = run.scratch("layer triangles found");
         compute::Buffer& histogram = run.scratch("layer histogram");
         histogram.fill(0);
         // Most rays meet none, which packets find out sooner.
-        tracer_.any(kernel::RayClass::sparse, run[kit_.rays()], run["ray count"], kit_.slots(),
-                    run.scratch("rays that meet layers"), "find layers");
+        tracer_.any(class_of_rays, run[kit_.rays()], of("ray count"), kit_.slots(),
+                    run.scratch("rays that meet layers"), kit_.named("find layers"));
         frame::DeviceGeometry& geometry = kit_.blended->geometry;
         const frame::DeviceSurfaces& scene = kit_.blended->surfaces;
         const frame::LayoutBuffers& tree = geometry.layout(bvh::Layout::binary);
@@ -44,25 +50,26 @@ class CollectLayers {
             .set(run.params_buffer(), tree.nodes, tree.triangles, tree.instances,
                  geometry.upper_nodes(), scene.triangles, scene.vertices, scene.optics,
                  scene.textures, scene.levels, scene.texels, scene.decode, run[kit_.rays()],
-                 run["ray count"], run["hits"], spreads, run.scratch("rays that meet layers"),
-                 kit_.layers, layers, ids, run.scratch("layer counts"),
-                 run.scratch("layer remainders"), histogram)
-            .launch("collect layers", {kit_.slots()}, {kGroup});
+                 of("ray count"), of("hits"), spreads, of("throughput"), of("origin"),
+                 run.scratch("rays that meet layers"), kit_.layers, layers, ids,
+                 run.scratch("layer counts"), run.scratch("layer remainders"), histogram)
+            .launch(kit_.named("collect layers"), {kit_.slots()}, {kGroup});
         weigh_
-            .set(run["ray count"], histogram, kit_.layers, list_.slots(),
+            .set(of("ray count"), histogram, kit_.layers, list_.slots(),
                  run.scratch("layer counts"), run.scratch("layer remainders"), layers,
-                 run.scratch("layer flags"), run.scratch("layer flag count"), run[kThrough])
-            .launch("weigh layers", {kit_.slots()}, {kGroup});
+                 run.scratch("layer flags"), run.scratch("layer flag count"), run[through_of(kit_)])
+            .launch(kit_.named("weigh layers"), {kit_.slots()}, {kGroup});
         compaction_.run(run.scratch("layer flags"), run.scratch("layer flag count"),
                         run.scratch("layer queue"), run.scratch("layer queue count"),
-                        "queue layers");
+                        kit_.named("queue layers"));
         entries_
             .set(run.params_buffer(), run.scratch("layer queue"), run.scratch("layer queue count"),
-                 run[kit_.rays()], run["pixel of slot"], spreads, kit_.layers, layers, ids,
-                 run[list_.rays()], run[list_.named("hits")], run[list_.named("pixel of slot")],
+                 run[kit_.rays()], of("pixel of slot"), spreads, of("root"), of("throughput"),
+                 of("origin"), kit_.layers, layers, ids, run[list_.rays()],
+                 run[list_.named("hits")], run[list_.named("pixel of slot")],
                  run[list_.named("root")], run[list_.named("throughput")],
                  run[list_.named("origin")], run[list_.named("ray count")])
-            .launch("list layers", {list_.slots()}, {kGroup});
+            .launch(kit_.named("list layers"), {list_.slots()}, {kGroup});
     }
 
   private:
@@ -91,8 +98,12 @@ std::vector<frame::Resource> scratch_of(const Kit& kit) {
 frame::Stage collect_layers(const Kit& kit, const std::string& spreads) {
     const Kit list = kit.at_layers();
     frame::Stage stage;
-    stage.name = "collect layers";
-    stage.reads = {kit.rays(), "ray count", "pixel of slot", "hits"};
+    stage.name = kit.named("collect layers");
+    stage.reads = {kit.rays(), kit.named("ray count"), kit.named("pixel of slot"),
+                   kit.named("hits")};
+    if (!kit.primary())
+        stage.reads.insert(stage.reads.end(),
+                           {kit.named("root"), kit.named("throughput"), kit.named("origin")});
     if (!spreads.empty())
         stage.reads.push_back(spreads);
     stage.writes = {of_list(list, "rays", sizeof(shared::RayBlock), MACULA_RAY_BLOCK),
@@ -102,7 +113,7 @@ frame::Stage collect_layers(const Kit& kit, const std::string& spreads) {
                     of_list(list, "throughput", 16),
                     of_list(list, "origin", 16),
                     {list.named("ray count"), 4, 1},
-                    per_slot(kit, kThrough, 4)};
+                    per_slot(kit, through_of(kit), 4)};
     stage.scratch = scratch_of(kit);
     stage.prepare = [kit, spreads] {
         auto body = std::make_shared<CollectLayers>(kit, spreads);
@@ -114,22 +125,21 @@ frame::Stage collect_layers(const Kit& kit, const std::string& spreads) {
 frame::Stage add_layers(const Kit& kit, const std::string& total) {
     const Kit list = kit.at_layers();
     frame::Stage stage;
-    stage.name = "blend layers";
-    stage.reads = {total,
-                   kThrough,
-                   list.named("ray count"),
-                   list.named("root"),
-                   list.named("throughput"),
+    stage.name = kit.named("blend layers");
+    stage.reads = {total, list.named("ray count"), list.named("root"), list.named("throughput"),
                    list.named("surface colour")};
-    const std::string sum = "colour behind layers";
-    stage.writes = {{sum, 16, kit.slots(), "surface colour"}};
+    if (kit.primary())
+        stage.reads.push_back(through_of(kit));
+    const std::string sum = "colour with " + kit.named("layers");
+    stage.writes = {{sum, 16, kit.at_level(0).slots(), "surface colour"}};
     stage.prepare = [kit, list, sum, name = stage.name] {
         auto kernel = kit.library.kernel(kernel::VariantKey(kProgram), "add_layers", kit.device);
-        return [list, sum, name, kernel](frame::Run& run) mutable {
+        const std::string through = kit.primary() ? through_of(kit) : "";
+        return [list, sum, through, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run[list.named("ray count")], run[list.named("root")],
                      run[list.named("throughput")], run[list.named("surface colour")],
-                     run[kThrough], run[sum])
+                     through.empty() ? compute::Buffer() : run[through], run[sum])
                 .launch(name, {list.slots()}, {kGroup});
         };
     };

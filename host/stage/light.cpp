@@ -100,7 +100,7 @@ frame::Stage direct_light(const Kit& kit, PlaceRows rows) {
         stage.reads.push_back(kit.named(read));
     if (kit.highlights)
         stage.reads.push_back(kit.named("surface specular"));
-    if (kit.level > 0)
+    if (!kit.primary())
         stage.reads.push_back(kit.named("origin"));
     stage.writes = {of_level(kit, "surface irradiance", 16),
                     of_level(kit, "surface highlight", 16)};

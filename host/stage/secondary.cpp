@@ -21,7 +21,11 @@ class SecondaryRays {
           generate_(kit.lane_kernel(kProgram, "generate_secondary_rays")) {}
 
     void operator()(frame::Run& run) {
-        const auto last = [&](const char* what) { return run[last_.named(what)]; };
+        // What goes through the layers before primary hits is taken off last of all.
+        const auto last = [&](const std::string& what) {
+            return last_.level == 0 && what == "light through layers" ? compute::Buffer()
+                                                                      : run[last_.named(what)];
+        };
         const auto next = [&](const char* what) { return run[kit_.named(what)]; };
         compute::Buffer& flags = run.scratch("secondary flags");
         compute::Buffer& flag_count = run.scratch("secondary flag count");
@@ -30,8 +34,8 @@ class SecondaryRays {
         flag_
             .set(last("ray count"), run[last_.rays()], last("surface triangle"),
                  last("surface material"), last("surface geometric normal"),
-                 last("surface shading normal"), last("throughput"), kit_.surfaces.optics, flags,
-                 flag_count, histogram)
+                 last("surface shading normal"), last("throughput"), last("light through layers"),
+                 kit_.surfaces.optics, flags, flag_count, histogram)
             .launch(kit_.named("flag rays"), kit_.lane_items(last_.slots()), kit_.lane_group());
         limit_.set(flag_count, histogram, kit_.slots(), flags)
             .launch(kit_.named("limit rays"), kit_.lane_items(kRaysOfHit * last_.slots()),
@@ -44,8 +48,8 @@ class SecondaryRays {
             .set(run.params_buffer(), run.scratch("secondary queue"),
                  run.scratch("secondary queue count"), run[last_.rays()],
                  first && !spreads_.empty() ? run[spreads_] : none, last("pixel of slot"),
-                 last("root"), last("throughput"), last("origin"), last("surface depth"),
-                 last("surface position"), last("surface material"),
+                 last("root"), last("throughput"), last("light through layers"), last("origin"),
+                 last("surface depth"), last("surface position"), last("surface material"),
                  last("surface geometric normal"), last("surface shading normal"),
                  kit_.surfaces.optics, next("rays"), next("pixel of slot"), next("root"),
                  next("throughput"), next("origin"), next("ray count"), kit_.ray_totals,
@@ -71,6 +75,8 @@ frame::Stage secondary_rays(const Kit& kit, const std::string& spreads) {
          {"ray count", "pixel of slot", "surface depth", "surface position", "surface triangle",
           "surface material", "surface geometric normal", "surface shading normal"})
         stage.reads.push_back(last.named(read));
+    if (last.level > 0 && kit.layers > 0)
+        stage.reads.push_back(last.named("light through layers"));
     if (last.level > 0)
         stage.reads.insert(stage.reads.end(),
                            {last.named("root"), last.named("throughput"), last.named("origin")});
@@ -116,6 +122,8 @@ frame::Stage add_secondary_light(const Kit& kit, const std::string& total) {
     stage.name = kit.named("add light of rays");
     stage.reads = {total, kit.named("ray count"), kit.named("root"), kit.named("throughput"),
                    kit.named("surface colour")};
+    if (kit.layers > 0)
+        stage.reads.push_back(kit.named("light through layers"));
     const std::string sum = "colour after bounce " + std::to_string(kit.level);
     stage.writes = {{sum, 16, kit.at_level(0).slots(), "surface colour"}};
     stage.prepare = [kit, sum, name = stage.name] {
@@ -124,7 +132,8 @@ frame::Stage add_secondary_light(const Kit& kit, const std::string& total) {
         return [kit, sum, name, kernel](frame::Run& run) mutable {
             kernel
                 .set(run[kit.named("ray count")], run[kit.named("root")],
-                     run[kit.named("throughput")], run[kit.named("surface colour")], run[sum])
+                     run[kit.named("throughput")], run[kit.named("light through layers")],
+                     run[kit.named("surface colour")], run[sum])
                 .launch(name, {kit.slots()}, {kGroup});
         };
     };

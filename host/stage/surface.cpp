@@ -8,7 +8,7 @@ frame::Stage resolve_surface(const Kit& kit, const std::string& spreads) {
     stage.reads = {kit.rays(), kit.named("ray count"), kit.named("hits")};
     if (!spreads.empty())
         stage.reads.push_back(spreads);
-    if (kit.level > 0)
+    if (!kit.primary())
         stage.reads.insert(stage.reads.end(), {kit.named("throughput"), kit.named("origin")});
     stage.writes = {
         of_level(kit, "surface depth", 4),

@@ -63,8 +63,8 @@ static inline bool load_packet(global const RayBlock* block, uint count, QueuedP
     return true;
 }
 
-static inline PacketBounds bound_packet(const float16 o[3], const float16 d[3], float16 t_min,
-                                        float16 t_max) {
+MACULA_ALWAYS_INLINE PacketBounds bound_packet(const float16 o[3], const float16 d[3],
+                                               float16 t_min, float16 t_max) {
     const float16 up[8] = {o[0], o[1], o[2], d[0], d[1], d[2], t_min, t_min};
     const float16 down[8] = {-o[0], -o[1], -o[2], -d[0], -d[1], -d[2], -t_max, -t_max};
     float lo[8], hi[8];
@@ -98,8 +98,8 @@ static inline float grown(float bound, float towards) {
 /* Rays towards a light have several origins and, nearly, one end: seen from there, with directions
  * as long as the rays, so that all begin at 1, their bounds are tighter. Returns whether *b was
  * replaced. */
-static inline bool bound_from_ends(const float16 o[3], const float16 d[3], float16 t_max,
-                                   PacketBounds* b) {
+MACULA_ALWAYS_INLINE bool bound_from_ends(const float16 o[3], const float16 d[3], float16 t_max,
+                                          PacketBounds* b) {
     if (!(b->t_max <= MACULA_EMPTY))
         return false;
     const float16 length = t_max < 0.0f ? (float16)(b->t_max) : t_max;

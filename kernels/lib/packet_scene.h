@@ -42,7 +42,7 @@ static inline PacketHit no_hit16(float16 t_max) {
  * first, rays are traced one by one; above the second, lanes are tested at every node and not only
  * at leaves. Rays towards a light have several origins, and so looser frusta. */
 #define MACULA_COHERENT_SPREAD 1.0f
-#define MACULA_WIDE_SPREAD (MACULA_ANY_HIT ? 0.01f : 0.02f)
+#define MACULA_WIDE_SPREAD (MACULA_ANY_HIT ? 0.001f : 0.02f)
 
 static inline float spread_of(const PacketBounds* b) {
     float size = 0.0f, spread = 0.0f;

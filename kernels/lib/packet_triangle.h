@@ -85,10 +85,11 @@ static inline int16 clamp_to_triangle(const Packet* p, global const Triangle* tr
 static inline int16 keep_solid(const TraceScene* scene, uint slot, int16 hit, float16 u,
                                float16 v) {
     int16 solid = 0;
-    for (uint i = 0u; i < 16u; ++i)
-        if (((const int*)&hit)[i] != 0 &&
-            mask_is_solid(&scene->masks, slot, ((const float*)&u)[i], ((const float*)&v)[i]))
+    for (uint bits = bits_of_lanes16(hit); bits != 0u; bits &= bits - 1u) {
+        const uint i = first_lane(bits);
+        if (mask_is_solid(&scene->masks, slot, ((const float*)&u)[i], ((const float*)&v)[i]))
             ((int*)&solid)[i] = -1;
+    }
     return solid;
 }
 #endif

@@ -71,7 +71,7 @@ static inline float16 fold_eighths(float16 a, float16 b) {
                  (float16)(a.s23, a.s67, a.sab, a.sef, b.s23, b.s67, b.sab, b.sef));
 }
 
-static inline float8 least_lanes16(const float16 v[8]) {
+MACULA_ALWAYS_INLINE float8 least_lanes16(const float16 v[8]) {
     const float16 a = fold_quarters(fold_halves(v[0], v[1]), fold_halves(v[2], v[3]));
     const float16 b = fold_quarters(fold_halves(v[4], v[5]), fold_halves(v[6], v[7]));
     const float16 c = fold_eighths(a, b);

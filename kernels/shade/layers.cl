@@ -29,7 +29,8 @@ typedef struct Layers {
     uint most;
     uint count;
     float behind; /* what goes through the layers that were merged */
-    float spread, lod_bias;
+    float width, growth; /* of the ray's cone: at its origin, and in a unit of t */
+    float lod_bias;
     float3 direction;
 } Layers;
 
@@ -71,7 +72,7 @@ MACULA_ALWAYS_INLINE float layer_opacity(const Layers* l, uint instance, uint id
         return opacity;
     SurfacePoint s;
     surface_point(&a, &b, &c, &placement, u, v, l->direction, &s);
-    const float lod = surface_lod(&s, t * l->spread, l->direction) + l->lod_bias;
+    const float lod = surface_lod(&s, fma(t, l->growth, l->width), l->direction) + l->lod_bias;
     const uint shift = (texture & MACULA_ALPHA_CHANNEL) != 0u ? 24u : 0u;
     return opacity * sample_channel(&l->textures, texture & ~MACULA_ALPHA_CHANNEL, shift, s.u, s.v,
                                     lod);
@@ -157,6 +158,7 @@ kernel void collect_layers(
     global const uint* restrict texels, global const float* restrict decode,
     global const RayBlock* restrict rays, global const uint* restrict ray_count,
     global const HitBlock* restrict found, global const float* restrict spreads,
+    global const float4* restrict throughput, global const float4* restrict origin,
     global const uint* restrict meets, uint most, global float4* restrict hits,
     global uint* restrict ids, global uint* restrict counts, global float* restrict behind,
     global uint* restrict histogram) {
@@ -185,7 +187,8 @@ kernel void collect_layers(
     l.most = most;
     l.count = 0u;
     l.behind = 1.0f;
-    l.spread = (spreads ? spreads[slot] : 1.0f) * frame->pixel_spread;
+    l.width = throughput ? throughput[slot].w : 0.0f;
+    l.growth = origin ? origin[slot].w : (spreads ? spreads[slot] : 1.0f) * frame->pixel_spread;
     l.lod_bias = frame->lod_bias;
     l.direction = make3(ray.dx, ray.dy, ray.dz);
     const TraceRay world =
@@ -242,13 +245,17 @@ kernel void weigh_layers(global const uint* restrict ray_count,
 }
 
 /* The layers as a list of rays with their hits, for the stages that shade surfaces. Entries of the
- * queue are indices of flags. The list's other parts are those of secondary rays (secondary.cl).
+ * queue are indices of flags. The list's other parts are those of secondary rays (secondary.cl);
+ * `last_...`: of the rays before whose hits the layers lie, null for primary ones.
  * One work-item an entry. */
 kernel void list_layers(global const FrameParams* restrict frame, global const uint* restrict queue,
                         global const uint* restrict queue_count,
                         global const RayBlock* restrict last_rays,
                         global const uint* restrict last_pixels,
-                        global const float* restrict spreads, uint most,
+                        global const float* restrict spreads,
+                        global const uint* restrict last_roots,
+                        global const float4* restrict last_throughput,
+                        global const float4* restrict last_origin, uint most,
                         global const float4* restrict layers, global const uint* restrict ids,
                         global RayBlock* restrict rays, global HitBlock* restrict hits,
                         global uint* restrict pixels, global uint* restrict roots,
@@ -278,15 +285,19 @@ kernel void list_layers(global const FrameParams* restrict frame, global const u
     hit->u[lane] = at.y;
     hit->v[lane] = at.z;
     hit->triangle[lane] = used ? ids[layer] : MACULA_NO_TRIANGLE;
-    const float spread = (spreads ? spreads[slot] : 1.0f) * frame->pixel_spread;
+    const float growth =
+        last_origin ? last_origin[slot].w : (spreads ? spreads[slot] : 1.0f) * frame->pixel_spread;
+    const float4 whole = (float4)(1.0f, 1.0f, 1.0f, 0.0f);
+    const float4 before = last_throughput ? last_throughput[slot] : whole;
     pixels[entry] = last_pixels[slot];
-    roots[entry] = used ? slot : NO_ROOT;
-    throughput[entry] = (float4)(at.w, at.w, at.w, 0.0f);
-    origin[entry] = (float4)(ray.ox, ray.oy, ray.oz, spread);
+    roots[entry] = used ? (last_roots ? last_roots[slot] : slot) : NO_ROOT;
+    throughput[entry] = (float4)(before.xyz * at.w, before.w);
+    origin[entry] = (float4)(ray.ox, ray.oy, ray.oz, growth);
 }
 
-/* colour = what goes through the layers of a slot, and what they add. One work-item a layer; the
- * first of a slot adds them all, from the front. */
+/* colour = what goes through the layers of a primary ray, and what they add; `through` is null for
+ * those of secondary rays, whose throughput it changes instead. One work-item a layer; the first of
+ * a slot adds them all, in their order. */
 kernel void add_layers(global const uint* restrict ray_count, global const uint* restrict roots,
                        global const float4* restrict throughput,
                        global const float4* restrict colour, global const float* restrict through,
@@ -297,7 +308,7 @@ kernel void add_layers(global const uint* restrict ray_count, global const uint*
     const uint root = roots[first];
     if (root == NO_ROOT || (first > 0u && roots[first - 1u] == root))
         return;
-    float3 sum = total[root].xyz * through[root];
+    float3 sum = total[root].xyz * (through ? through[root] : 1.0f);
     for (uint layer = first; layer < count && roots[layer] == root; ++layer)
         sum = fma3(throughput[layer].xyz, colour[layer].xyz, sum);
     total[root] = (float4)(sum, 1.0f);

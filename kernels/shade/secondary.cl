@@ -49,6 +49,13 @@ static inline Continuation continuation_of(const Meeting* m, global const Surfac
     return c;
 }
 
+/* True where the material mirrors or refracts at all. */
+static inline Mask goes_on(global const SurfaceOptics* optics, Mask hit, Uint material) {
+    const Uint index = hit ? material : splat_uint(0u);
+    const Lane4 mirror = optics_row(optics, index, 0u), glass = optics_row(optics, index, 1u);
+    return largest3(add3(mirror.xyz, glass.xyz)) > splat(0.0f);
+}
+
 static inline Uint class_of(Real weight) {
     const Real exponent = floor(m_log2(m_max(weight, splat(LEAST_WEIGHT))));
     return to_uint(clamped(exponent + (float)(WEAK_CLASSES + 1u), splat(1.0f),
@@ -57,13 +64,15 @@ static inline Uint class_of(Real weight) {
 
 /* flags[2 * slot] of the mirrored ray and flags[2 * slot + 1] of the refracted one: 0, or its class
  * of weight; histogram[class]: their number, begins as zeros. `throughput`: of the rays, null for
- * primary ones. One work-item for MACULA_LANES slots of the launch. */
+ * primary ones; `through`: what goes through the layers before their hits, null where there is
+ * none. One work-item for MACULA_LANES slots of the launch. */
 kernel void flag_secondary_rays(
     global const uint* restrict ray_count, global const RayBlock* restrict rays,
     global const uint* restrict triangle, global const uint* restrict material,
     global const float4* restrict geometric_normal, global const float4* restrict shading_normal,
-    global const float4* restrict throughput, global const SurfaceOptics* restrict optics,
-    global uint* restrict flags, global uint* restrict flag_count,
+    global const float4* restrict throughput, global const float* restrict through,
+    global const SurfaceOptics* restrict optics, global uint* restrict flags,
+    global uint* restrict flag_count,
     global uint* restrict histogram) {
     const uint first = first_of_item();
     if (first == 0u)
@@ -74,7 +83,7 @@ kernel void flag_secondary_rays(
     const Mask hit =
         (lanes_from(first) < *ray_count) & (load_uints(triangle, first) != MACULA_NO_TRIANGLE);
     Uint reflected = none, refracted = none;
-    if (any_lane(hit)) {
+    if (any_lane(hit & goes_on(optics, hit, load_uints(material, first)))) {
         const uint lane = first % MACULA_RAY_BLOCK;
         global const RayBlock* ray = rays + first / MACULA_RAY_BLOCK;
         const Real3 direction =
@@ -84,7 +93,8 @@ kernel void flag_secondary_rays(
                                      load4(shading_normal, first), load_uints(material, first));
         const Continuation c = continuation_of(&m, optics);
         const Real3 white = splat_vector(splat3(1.0f));
-        const Real3 before = throughput ? load4(throughput, first).xyz : white;
+        Real3 before = throughput ? load4(throughput, first).xyz : white;
+        before = through ? scale3(before, load_reals(through, first)) : before;
         const Real a = largest3(mul3(c.reflected_weight, before));
         const Real b = largest3(mul3(c.refracted_weight, before));
         const Uint strong = splat_uint(STRONGER_RAY);
@@ -136,13 +146,13 @@ kernel void generate_secondary_rays(
     global const uint* restrict queue_count, global const RayBlock* restrict last_rays,
     global const float* restrict spreads, global const uint* restrict last_pixels,
     global const uint* restrict last_roots, global const float4* restrict last_throughput,
-    global const float4* restrict last_origin, global const float* restrict depth,
-    global const float4* restrict position, global const uint* restrict material,
-    global const float4* restrict geometric_normal, global const float4* restrict shading_normal,
-    global const SurfaceOptics* restrict optics, global RayBlock* restrict rays,
-    global uint* restrict pixels, global uint* restrict roots, global float4* restrict throughput,
-    global float4* restrict origin, global uint* restrict ray_count,
-    global ulong* restrict ray_totals, uint ray_class) {
+    global const float* restrict last_through, global const float4* restrict last_origin,
+    global const float* restrict depth, global const float4* restrict position,
+    global const uint* restrict material, global const float4* restrict geometric_normal,
+    global const float4* restrict shading_normal, global const SurfaceOptics* restrict optics,
+    global RayBlock* restrict rays, global uint* restrict pixels, global uint* restrict roots,
+    global float4* restrict throughput, global float4* restrict origin,
+    global uint* restrict ray_count, global ulong* restrict ray_totals, uint ray_class) {
     const uint count = *queue_count, first = first_of_item();
     if (first == 0u) {
         *ray_count = padded_count(count);
@@ -177,7 +187,9 @@ kernel void generate_secondary_rays(
     const Real width = fma(t, growth, before.w);
     store_rays(rays, first, from, select3(mirrored, c.reflected, c.refracted),
                used ? splat(MACULA_BACKGROUND_DEPTH) : splat(-1.0f));
-    store4(throughput, first, mul3(before.xyz, weight), width);
+    const Real3 arriving =
+        last_through ? scale3(before.xyz, MACULA_GATHER(float, last_through, slot, )) : before.xyz;
+    store4(throughput, first, mul3(arriving, weight), width);
     store4(origin, first, from, m_divide(growth, m.length));
     store_uints(pixels, first, MACULA_GATHER(uint, last_pixels, slot, ));
     const Uint root = last_roots ? MACULA_GATHER(uint, last_roots, slot, ) : slot;
@@ -189,6 +201,7 @@ kernel void generate_secondary_rays(
 kernel void add_secondary_rays(global const uint* restrict ray_count,
                                global const uint* restrict roots,
                                global const float4* restrict throughput,
+                               global const float* restrict through,
                                global const float4* restrict colour,
                                global float4* restrict total) {
     const uint first = (uint)get_global_id(0), count = *ray_count;
@@ -198,7 +211,9 @@ kernel void add_secondary_rays(global const uint* restrict ray_count,
     if (root == NO_ROOT || (first > 0u && roots[first - 1u] == root))
         return;
     float3 sum = total[root].xyz;
-    for (uint ray = first; ray < count && roots[ray] == root; ++ray)
-        sum = fma3(throughput[ray].xyz, colour[ray].xyz, sum);
+    for (uint ray = first; ray < count && roots[ray] == root; ++ray) {
+        const float3 weight = throughput[ray].xyz * (through ? through[ray] : 1.0f);
+        sum = fma3(weight, colour[ray].xyz, sum);
+    }
     total[root] = (float4)(sum, 1.0f);
 }

@@ -1,4 +1,5 @@
 // Reflected and refracted rays in whole frames: what a mirror shows, where rays go, what they cost.
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -46,7 +47,7 @@ scene::Material& add_material(scene::Scene& scene) {
 
 // A textured floor and a sphere in front of z = 0, lit by a point light; the mirror, if any, lies
 // in z = 0.
-scene::Scene room(bool mirror, View view) {
+scene::Scene room(bool mirror, View view, bool blended = false) {
     scene::Mesh mesh = icosphere(2);
     for (glm::vec3& p : mesh.positions)
         p = 0.6f * p + glm::vec3(0.4f, 0.1f, 6.5f);
@@ -81,6 +82,13 @@ scene::Scene room(bool mirror, View view) {
                                                 : scene::procedural::rgb(0x203080)};
         });
     scene.materials[0].specular = glm::vec3(0.4f);
+    if (blended) { // the sphere
+        scene::Material& pane = add_material(scene);
+        pane.diffuse = {0.2f, 0.9f, 0.4f};
+        pane.alpha_mode = scene::AlphaMode::blend;
+        pane.opacity = 0.4f;
+        std::fill_n(scene.meshes[0].triangle_material.begin(), icosphere(2).triangles.size(), 2u);
+    }
     scene.ambient = glm::vec3(0.2f);
     scene.background = {0.1f, 0.2f, 0.4f};
     scene.lights.emplace_back();
@@ -88,11 +96,14 @@ scene::Scene room(bool mirror, View view) {
     return scene;
 }
 
-// Position, direction, cone (by the texture's level of detail), light, shadow and highlight are all
-// those of the camera behind the mirror.
-TEST(Mirror, ShowsWhatTheMirroredCameraSees) {
-    const scene::Scene with = room(true, {{0.2f, 0.3f, 3}, {0.2f, 0.3f, -1}, 48.0f});
-    const scene::Scene without = room(false, {{0.2f, 0.3f, -3}, {0.2f, 0.3f, 1}, 48.0f});
+class Mirror : public testing::TestWithParam<bool> {};
+
+// Position, direction, cone (by the texture's level of detail), light, shadow, highlight and
+// blended layers are all those of the camera behind the mirror.
+TEST_P(Mirror, ShowsWhatTheMirroredCameraSees) {
+    const scene::Scene with = room(true, {{0.2f, 0.3f, 3}, {0.2f, 0.3f, -1}, 48.0f}, GetParam());
+    const scene::Scene without =
+        room(false, {{0.2f, 0.3f, -3}, {0.2f, 0.3f, 1}, 48.0f}, GetParam());
     render::Renderer reflected(device(), with, options(1)), seen(device(), without, options(0));
     reflected.render(0);
     seen.render(0);
@@ -107,6 +118,10 @@ TEST(Mirror, ShowsWhatTheMirroredCameraSees) {
     EXPECT_LT(differing, pixels(a) / 200);
     EXPECT_NE(hash_of(with, options(0)), hash_of(with, options(1)));
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, Mirror, testing::Bool(), [](const auto& blended) {
+    return std::string(blended.param ? "BlendedSphere" : "OpaqueSphere");
+});
 
 TEST(Depth, ZeroIsThePictureOfTheSceneWithoutReflection) {
     scene::Scene scene = scene::load("whitted");

@@ -187,6 +187,21 @@ TEST_F(Obj, DissolveWinsOverTransparency) {
     EXPECT_FLOAT_EQ(scene.materials[2].opacity, 0.5f);
 }
 
+TEST_F(Obj, IlluminationModelsMirrorAndRefract) {
+    write("m.mtl",
+          "newmtl a\nillum 3\nKs 0.5 0.5 0.5\nnewmtl b\nillum 7\nKs 0.1 0.1 0.1\n"
+          "Tf 0.9 0.8 0.7\nNi 1.33\nnewmtl c\nillum 6\nd 0.25\nnewmtl d\nillum 2\nd 0.5\n");
+    const Scene scene = load_text("a.obj", "mtllib m.mtl\n" + kTriangle + "f 1 2 3\n");
+    EXPECT_EQ(scene.materials[0].reflectivity, glm::vec3(0.5f));
+    EXPECT_EQ(scene.materials[0].transmission, glm::vec3(0.0f));
+    EXPECT_EQ(scene.materials[1].reflectivity, glm::vec3(0.1f));
+    EXPECT_EQ(scene.materials[1].transmission, glm::vec3(0.9f, 0.8f, 0.7f));
+    EXPECT_FLOAT_EQ(scene.materials[1].index_of_refraction, 1.33f);
+    EXPECT_EQ(scene.materials[2].transmission, glm::vec3(0.75f)); // no Tf: 1 - d
+    EXPECT_EQ(scene.materials[3].alpha_mode, AlphaMode::blend);
+    EXPECT_EQ(scene.materials[3].transmission, glm::vec3(0.0f));
+}
+
 TEST_F(Obj, MalformedMaterialValuesKeepTheirDefaultAndWarn) {
     write("m.mtl", "newmtl a\nKd red 0 0\nNs many\nKs 0.5\n");
     const Scene scene = load_text("a.obj", "mtllib m.mtl\n" + kTriangle + "usemtl a\nf 1 2 3\n");
