@@ -62,7 +62,8 @@ frame::Graph Method::make(const stage::Kit& kit, const Options& options) const {
     const TemporalOptions& t = options.temporal;
     const stage::TemporalKit temporal{kit,      foveated,     antialiased,
                                       upscaled, t.frame_rate, t.sharpness};
-    graph.add(stage::follow_surfaces(temporal));
+    if (!foveated)
+        graph.add(stage::follow_surfaces(temporal));
     if (antialiased)
         graph.add(stage::antialias(temporal));
     else

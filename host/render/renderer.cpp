@@ -59,6 +59,8 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
     s.samples_per_pixel = options.samples_per_pixel;
     s.seed = options.seed;
     s.lod_bias = options.lod_bias;
+    // Textures are as sharp as in a picture of that size.
+    s.sharpening = static_cast<float>(s.width) / static_cast<float>(options.width);
     s.light_count = static_cast<std::uint32_t>(lights);
     if (occlusion) {
         s.ambient_occlusion_samples = options.ambient_occlusion_samples;

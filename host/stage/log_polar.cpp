@@ -66,6 +66,8 @@ shared::LogPolarParams make_params(const LogPolarOptions& o, std::uint32_t width
     p.disk = o.disk;
     p.disk_tangent = std::tan(o.disk_degrees * std::numbers::pi_v<float> / 180.0f);
     p.fade = o.fade;
+    // Section 4.1.2: what is foveated is not sharpened before it is enlarged.
+    p.spread_scale = picture_width != 0 ? static_cast<float>(picture_width) / width : 1.0f;
     p.thesis_lod = o.lod == LodRule::thesis ? 1 : 0;
     p.pitch = p.width + 2;
     p.capacity = shared::slot_count(width, height);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/planes.h"
+#include "shared/ray.h"
 
 namespace macula::stage {
 namespace {
@@ -72,7 +73,9 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
     frame::Stage stage;
     stage.name = "remap surfaces";
     stage.reads = {"fovea", "sampled surfaces", "log-polar surface", "log-polar colour", "colour"};
-    stage.writes = {planes(kit.kit, "surface planes", MACULA_FOVEATED_PLANES)};
+    stage.reads_last = {"depth range"};
+    stage.writes = {planes(kit.kit, "depth range", 2), planes(kit.kit, "followed motion", 2),
+                    planes(kit.kit, "sample spread", 1)};
     stage.scratch = {{"texel ranges", 8, kit.buffer->texels()},
                      {"texel motions", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
@@ -84,17 +87,18 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
                                             "remap_surfaces", kit.kit.device);
         return [=](frame::Run& run) mutable {
             const shared::LogPolarParams& p = kit.buffer->params();
+            const std::uint64_t across = (p.width + MACULA_RAY_BLOCK - 1) / MACULA_RAY_BLOCK;
             summarise
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels",
-                        {compute::Range::cover(std::uint64_t{p.width} * p.height, kGroup)},
+                .launch("summarise texels", {compute::Range::cover(across * p.height, kGroup)},
                         {kGroup});
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
                      run.scratch("texel ranges"), run.scratch("texel motions"),
-                     run["sampled surfaces"], run["surface planes"])
+                     run["sampled surfaces"], run.last("depth range"), run["depth range"],
+                     run["followed motion"], run["sample spread"])
                 .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
         };
     };
@@ -111,9 +115,8 @@ frame::Stage follow_surfaces(const TemporalKit& kit) {
         auto kernel = kit.kit.lane_kernel("upscale/follow", "follow_surfaces");
         return [=](frame::Run& run) mutable {
             kernel
-                .set(run.params_buffer(), static_cast<std::uint32_t>(kit.foveated),
-                     run["surface planes"], run.last("depth range"), run["depth range"],
-                     run["followed motion"])
+                .set(run.params_buffer(), run["surface planes"], run.last("depth range"),
+                     run["depth range"], run["followed motion"])
                 .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
         };
     };
@@ -123,7 +126,7 @@ frame::Stage follow_surfaces(const TemporalKit& kit) {
 frame::Stage antialias(const TemporalKit& kit) {
     frame::Stage stage;
     stage.name = "smooth over frames";
-    stage.reads = {"colour", "surface planes", "followed motion", "fovea"};
+    stage.reads = {"colour", "sample spread", "followed motion", "fovea"};
     stage.reads_last = {"stable planes"};
     stage.writes = {planes(kit.kit, "stable planes", MACULA_COLOUR_PLANES),
                     per_pixel(kit.kit, "stable colour", 16)};
@@ -133,7 +136,7 @@ frame::Stage antialias(const TemporalKit& kit) {
             const compute::Buffer none;
             kernel
                 .set(run.params_buffer(), kit.frame_rate, kit.upscaled ? run["fovea"] : none,
-                     run["colour"], run["surface planes"], run["followed motion"],
+                     run["colour"], run["sample spread"], run["followed motion"],
                      run.last("stable planes"), run["stable planes"], run["stable colour"])
                 .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
         };
@@ -161,10 +164,10 @@ frame::Stage upscale(const TemporalKit& kit) {
     const std::uint64_t pixels = std::uint64_t{width} * height;
     frame::Stage stage;
     stage.name = "upscale";
-    stage.reads = {upscaled_from(kit), "surface planes", "followed motion"};
+    stage.reads = {upscaled_from(kit), "followed motion"};
     stage.reads_last = {"upscaled planes"};
     if (kit.foveated) {
-        stage.reads.emplace_back("fovea");
+        stage.reads.insert(stage.reads.end(), {"fovea", "sample spread"});
         stage.reads_last.emplace_back("fovea");
     }
     stage.writes = {{"upscaled planes", 4 * MACULA_COLOUR_PLANES, pixels},
@@ -182,9 +185,9 @@ frame::Stage upscale(const TemporalKit& kit) {
             const compute::Buffer fovea = kit.foveated ? run["fovea"] : none;
             upscale
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
-                     kit.foveated ? run.last("fovea") : none, colours, run["surface planes"],
-                     run["followed motion"], run.last("upscaled planes"), run["upscaled planes"],
-                     run["upscaled colour"])
+                     kit.foveated ? run.last("fovea") : none, colours,
+                     kit.foveated ? run["sample spread"] : none, run["followed motion"],
+                     run.last("upscaled planes"), run["upscaled planes"], run["upscaled colour"])
                 .launch(name, range, kit.kit.lane_group());
             sharpen
                 .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea, colours,

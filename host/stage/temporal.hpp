@@ -14,12 +14,13 @@ namespace macula::stage {
 frame::Stage place_surfaces(const Kit& kit);
 // "sampled surfaces", the same of the disk alone, and "log-polar surface" of the buffer's texels.
 frame::Stage place_surfaces(const LogPolarKit& kit);
-// "sampled surfaces" and "log-polar surface" -> "surface planes", of what is remapped.
+// "sampled surfaces" and "log-polar surface" -> "followed motion", as of follow_surfaces(), and
+// "sample spread", the deviation of the luminance of the samples that a pixel is made of.
 frame::Stage remap_surfaces(const LogPolarKit& kit);
 
 struct TemporalKit {
     Kit kit;
-    bool foveated;    // the method has a "fovea" and its planes
+    bool foveated;    // the method has a "fovea" and follows its surfaces itself
     bool antialiased; // `antialias` is among its stages, and `upscale`
     bool upscaled;
     float frame_rate; // frames a second

@@ -176,10 +176,10 @@ kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
             x = s.x;
             y = s.y;
             /* The side of a square of the texel's area. */
-            spread = m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f);
+            spread = m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f) * params->spread_scale;
         }
         if (params->thesis_lod != 0u)
-            spread = log_polar_thesis_spread(params, bias_column);
+            spread = log_polar_thesis_spread(params, bias_column) * params->spread_scale;
         add_ray(&list, frame, slot, place, x, y, spread);
     }
 }

@@ -11,9 +11,10 @@ typedef struct Footprint {
     int width, height;
     Int x, y; /* the pixel before the place */
     Real to_x, to_y;
-    int first_x, first_y; /* the first lane's where they lie side by side */
-    bool straight;        /* they do, and so far from the edge that all of their taps exist */
-    bool exact;           /* no place lies between pixels */
+    int first_x, first_y; /* the least of them */
+    bool straight;        /* they lie side by side, so far from the edge that all taps exist */
+    bool close; /* or in two rows and less than sixteen columns, as those of most motions do */
+    bool exact; /* no place lies between pixels */
 } Footprint;
 
 /* x, y: in pixels, 0 being the edge of the image. Lanes that are not `wanted` get any place. */
@@ -23,20 +24,21 @@ MACULA_ALWAYS_INLINE Footprint footprint_at(Real x, Real y, Mask wanted, int wid
     const Real kept_y = clamped(y, least, splat((float)height + 2.0f));
     const Int at_x = to_int(rint(fma(kept_x, splat(256.0f), splat(-128.0f))));
     const Int at_y = to_int(rint(fma(kept_y, splat(256.0f), splat(-128.0f))));
-    const Int none = splat_int(0x7fffffff), lanes = strip_lanes();
-    const Int start = least_of_lanes(wanted ? (at_x >> 8) - lanes : none);
+    const Int none = splat_int(0x7fffffff), zero = splat_int(0), lanes = strip_lanes();
+    const Int column = least_of_lanes(wanted ? at_x >> 8 : none);
     const Int row = least_of_lanes(wanted ? at_y >> 8 : none);
     Footprint f;
     f.width = width;
     f.height = height;
-    f.first_x = first_of_lanes(start);
+    f.first_x = first_of_lanes(column);
     f.first_y = first_of_lanes(row);
-    const Mask bent = wanted & (((at_x >> 8) - lanes != start) | (at_y >> 8 != row));
-    f.straight = !any_lane(bent) && f.first_x >= 1 && f.first_y >= 1 &&
-                 f.first_x + MACULA_LANES + 2 <= width && f.first_y + 3 <= height;
-    const Int zero = splat_int(0);
-    f.x = wanted ? at_x >> 8 : zero;
-    f.y = wanted ? at_y >> 8 : zero;
+    const Int ahead = (at_x >> 8) - column, below = (at_y >> 8) - row;
+    const bool inside = f.first_x >= 1 && f.first_y >= 1 && f.first_x + MACULA_LANES + 2 <= width &&
+                        f.first_y + 4 <= height;
+    f.straight = inside && !any_lane(wanted & ((ahead != lanes) | (below != zero)));
+    f.close = inside && !any_lane(wanted & ((ahead > 15) | (below > 1)));
+    f.x = wanted ? at_x >> 8 : (inside ? column : zero);
+    f.y = wanted ? at_y >> 8 : (inside ? row : zero);
     const Int part_x = wanted ? at_x & 255 : zero, part_y = wanted ? at_y & 255 : zero;
     f.exact = !any_lane((part_x | part_y) != 0);
     f.to_x = int_to_real(part_x) * splat(0x1p-8f);
@@ -46,8 +48,17 @@ MACULA_ALWAYS_INLINE Footprint footprint_at(Real x, Real y, Mask wanted, int wid
 
 /* The pixel (i, j) after the one before the place. */
 MACULA_ALWAYS_INLINE Real tap_of(global const float* plane, const Footprint* f, int i, int j) {
+    global const float* first = plane + (f->first_y + j) * f->width + (f->first_x + i);
     if (f->straight)
-        return load_reals(plane + (f->first_y + j) * f->width, (uint)(f->first_x + i));
+        return load_reals(first, 0u);
+#if MACULA_LANES == 16
+    if (f->close) {
+        const Int ahead = f->x - f->first_x;
+        const Real upper = permuted16(vload16(0, first), ahead);
+        const Real lower = permuted16(vload16(0, first + f->width), ahead);
+        return f->y != f->first_y ? lower : upper;
+    }
+#endif
     const Int x = clamp(f->x + i, (Int)(0), (Int)(f->width - 1));
     const Int y = clamp(f->y + j, (Int)(0), (Int)(f->height - 1));
     const Int index = y * f->width + x;

@@ -2,11 +2,8 @@
  * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
  * next frame's for others there: motion is the mean over the samples around a pixel, depth their
  * range. */
-#include "lib/camera.h"
-#include "lib/log_polar.h"
-#include "lib/strip.h"
-#include "shared/planes.h"
-#include "shared/surface.h"
+#include "shared/ray.h"
+#include "upscale/follow.h"
 #include "upscale/fovea.h"
 
 /* Where a strip's pixels lie in the buffer: in texels, 0 being the middle of the first one. */
@@ -46,18 +43,9 @@ static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
     }
 }
 
-/* One work-item a texel. ranges: the least and the greatest depth of three by three texels;
- * motions: their mean, the deviation of the luminance, 1. Texels without a sample have colours
- * whose alpha is 0. */
-kernel void summarise_texels(global const LogPolarParams* restrict params,
-                             global const Fovea* restrict fovea,
-                             global const float4* restrict colours,
-                             global const float4* restrict surfaces, global float2* restrict ranges,
-                             global float4* restrict motions) {
-    const uint texel = (uint)get_global_id(0), row = texel / params->width;
-    const uint column = texel % params->width;
-    if (row >= params->height || column < fovea->first_column)
-        return;
+static inline void summarise(global const LogPolarParams* params, global const Fovea* fovea,
+                             global const float4* colours, global const float4* surfaces,
+                             global float2* ranges, global float4* motions, uint column, uint row) {
     Sums sums = {MACULA_BACKGROUND_DEPTH, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     for (uint k = 0u; k < 9u; ++k) {
         const uint i = column + k % 3u; /* a row begins with an empty texel */
@@ -73,6 +61,24 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     ranges[to] = (float2)(sums.least, sums.most);
     motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
                            sums.movable > 0.0f ? 1.0f : 0.0f);
+}
+
+/* One work-item MACULA_RAY_BLOCK texels of a row. ranges: the least and the greatest depth of three
+ * by three texels; motions: their mean, the deviation of the luminance, 1. Texels without a sample
+ * have colours whose alpha is 0. */
+kernel void summarise_texels(global const LogPolarParams* restrict params,
+                             global const Fovea* restrict fovea,
+                             global const float4* restrict colours,
+                             global const float4* restrict surfaces,
+                             global float2* restrict ranges, global float4* restrict motions) {
+    const uint across = (params->width + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK;
+    const uint item = (uint)get_global_id(0), row = item / across;
+    const uint first = item % across * MACULA_RAY_BLOCK;
+    if (row >= params->height)
+        return;
+    const uint end = min(first + MACULA_RAY_BLOCK, params->width);
+    for (uint column = max(first, fovea->first_column); column < end; ++column)
+        summarise(params, fovea, colours, surfaces, ranges, motions, column, row);
 }
 
 /* Between two by two texels; those without motion count nothing, and none at all: no motion. */
@@ -101,40 +107,55 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
     return sum;
 }
 
-/* One work-item a strip. sampled_planes: depth and motion of the disk. */
+/* One work-item a strip. sampled: depth and motion of the disk. range, followed: as of
+ * follow_surfaces(); spread: the deviation of the samples that a pixel is made of; 0: the disk. */
 kernel void remap_surfaces(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
                            global const Fovea* restrict fovea, global const float2* restrict ranges,
                            global const float4* restrict motions,
-                           global const float* restrict sampled_planes,
-                           global float* restrict planes) {
+                           global const float* restrict sampled,
+                           global const float* restrict past_range, global float* restrict range,
+                           global float* restrict followed, global float* restrict spread) {
     const Strip s = strip_of_item(frame->width, frame->height);
     if (s.y >= s.height)
         return;
     const uint pixels = frame->width * frame->height;
-    const Real distance = distance_to_gaze(fovea, &s);
-    const Mask sampled = distance < splat(fovea->radius);
-    const Real own = plane_at(sampled_planes + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
-    Real motion_x = plane_at(sampled_planes + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
-    Real motion_y = plane_at(sampled_planes + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
-    Real least = own, most = own, spread = splat(0.0f);
-    if (any_lane(strip_inside(&s) & (distance >= splat(fovea->radius)))) {
+    const Real distance = distance_to_gaze(fovea, &s), zero = splat(0.0f);
+    Real motion_x = zero, motion_y = zero, deviation = zero;
+    Depths depths = {zero, zero}, kept = {zero, zero};
+    const Mask beyond = distance >= splat(fovea->radius);
+    if (any_lane(strip_inside(&s) & beyond)) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
         const Place p =
             place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
         const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
         const Lane4 motion = motion_at(params, motions, &p);
-        least = sampled ? least : MACULA_GATHER(float, ranges, nearest, .x);
-        most = sampled ? most : MACULA_GATHER(float, ranges, nearest, .y);
-        spread = sampled ? spread : motion.xyz.z;
-        motion_x = sampled ? motion_x : motion.xyz.x;
-        motion_y = sampled ? motion_y : motion.xyz.y;
+        depths.least = MACULA_GATHER(float, ranges, nearest, .x);
+        depths.most = MACULA_GATHER(float, ranges, nearest, .y);
+        kept = depths;
+        motion_x = motion.xyz.x;
+        motion_y = motion.xyz.y;
+        deviation = motion.xyz.z;
     }
-    store_plane(planes + MACULA_PLANE_DEPTH * pixels, &s, least);
-    store_plane(planes + MACULA_PLANE_MOTION_X * pixels, &s, motion_x);
-    store_plane(planes + MACULA_PLANE_MOTION_Y * pixels, &s, motion_y);
-    store_plane(planes + MACULA_PLANE_LEAST * pixels, &s, least);
-    store_plane(planes + MACULA_PLANE_MOST * pixels, &s, most);
-    store_plane(planes + MACULA_PLANE_SPREAD * pixels, &s, spread);
+    if (any_lane(strip_inside(&s) & (distance < splat(fovea->radius)))) {
+        /* At its edge a pixel has neighbours that were not sampled. */
+        const Mask within = distance < splat(fovea->radius - 1.5f);
+        const Nearest around = nearest_surface(sampled, pixels, &s);
+        const Real own = plane_at(sampled + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
+        const Real own_x = plane_at(sampled + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
+        const Real own_y = plane_at(sampled + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
+        const Real nearest = within ? around.depth : own;
+        depths.least = beyond ? depths.least : nearest;
+        depths.most = beyond ? depths.most : nearest;
+        kept.least = beyond ? kept.least : nearest;
+        kept.most = beyond ? kept.most : own;
+        motion_x = beyond ? motion_x : (within ? around.motion_x : own_x);
+        motion_y = beyond ? motion_y : (within ? around.motion_y : own_y);
+        deviation = beyond ? deviation : zero;
+    }
+    store_plane(range, &s, kept.least);
+    store_plane(range + pixels, &s, kept.most);
+    store_plane(spread, &s, deviation);
+    store_followed(frame, &s, motion_x, motion_y, depths, past_range, followed);
 }

@@ -17,7 +17,8 @@ typedef struct LogPolarParams {
     uint pitch;      /* of a row of the buffer: an empty texel, the columns, an empty texel */
     uint thesis_lod; /* 1: textures are filtered for a pixel and a bias (equation 4.2), else for a
                       * sample's texel */
-    uint pad[2];
+    float spread_scale; /* of samples beyond the disk: undoes FrameSettings.sharpening */
+    uint pad;
 } LogPolarParams;
 MACULA_ASSERT_SIZE(LogPolarParams, 48);
 

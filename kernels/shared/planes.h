@@ -4,16 +4,11 @@
 #define MACULA_SHARED_PLANES_H
 
 
-/* "surface planes": what each pixel shows. */
+/* "surface planes": what each sampled pixel shows. */
 #define MACULA_PLANE_DEPTH 0u    /* along the view axis; MACULA_BACKGROUND_DEPTH: nothing */
 #define MACULA_PLANE_MOTION_X 1u /* pixels: last frame's place minus this one's */
 #define MACULA_PLANE_MOTION_Y 2u
 #define MACULA_SURFACE_PLANES 3u
-/* And of foveated methods: */
-#define MACULA_PLANE_LEAST 3u /* depths around it */
-#define MACULA_PLANE_MOST 4u
-#define MACULA_PLANE_SPREAD 5u   /* deviation of the luminance of the samples that it is made of */
-#define MACULA_FOVEATED_PLANES 6u
 
 /* "stable planes", "upscaled planes": colours, and what they are worth in samples. */
 #define MACULA_PLANE_WORTH 3u

@@ -80,10 +80,11 @@ static inline Real retention_bias(global const FrameParams* frame, Real change, 
 }
 
 /* One work-item a strip. stable: four planes, colour and worth; colour_out may be null. `fovea`:
- * null, or the disk within which nothing is smoothed. */
+ * null, or the disk within which nothing is smoothed. spreads: the deviation of the luminance of
+ * the samples that a pixel is made of. */
 kernel void antialias(global const FrameParams* restrict frame, float frame_rate,
                       global const Fovea* restrict fovea, global const float4* restrict colour,
-                      global const float* restrict surfaces, global const float* restrict followed,
+                      global const float* restrict spreads, global const float* restrict followed,
                       global const float* restrict past_stable, global float* restrict stable,
                       global float4* restrict colour_out) {
     const Strip s = strip_of_item(frame->width, frame->height);
@@ -104,7 +105,7 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
                                          ((float)s.y + 0.5f) + motion_y, wanted, s.width,
                                          s.height);
         const Past past = find_past(past_stable, pixels, &f, wanted);
-        const Real spread = plane_at(surfaces + MACULA_PLANE_SPREAD * pixels, &s, 0, 0);
+        const Real spread = plane_at(spreads, &s, 0, 0);
         Real light;
         const Neighbours around = find_neighbours(colour, &s, &light);
         const Real apart = fabs(light - luminance_of(past.mean));

@@ -1,62 +1,9 @@
-/* Where each pixel's surface was in the last frame, for what gathers samples over frames: no motion
- * where that frame saw another surface there (Yang et al. 2020, section 5.1, and section 3.2 for
- * the nearest neighbour's motion). */
-#include "lib/camera.h"
-#include "lib/footprint.h"
-#include "shared/planes.h"
-#include "shared/surface.h"
+/* Surfaces followed from frame to frame, for methods that sample each pixel. */
+#include "upscale/follow.h"
 
-/* Part by which a depth may differ from what it is expected to be. */
-#define DEPTH_TOLERANCE 0.1f
-/* Depths from here on are the background's. */
-#define FAR_AWAY 1e29f
-
-/* The nearest of three by three surfaces: the edge of what is in front moves with it. */
-typedef struct Nearest {
-    Real depth, motion_x, motion_y;
-} Nearest;
-
-static inline Nearest nearest_surface(global const float* surfaces, uint pixels, const Strip* s) {
-    Nearest n;
-    n.depth = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, s, 0, 0);
-    n.motion_x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
-    n.motion_y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
-    for (uint k = 0u; k < 9u; ++k) {
-        const int dx = (int)(k % 3u) - 1, dy = (int)(k / 3u) - 1;
-        const Real depth = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, s, dx, dy);
-        const Mask closer = depth < n.depth;
-        if (!any_lane(closer))
-            continue;
-        const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, s, dx, dy);
-        const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, s, dx, dy);
-        n.depth = closer ? depth : n.depth;
-        n.motion_x = closer ? x : n.motion_x;
-        n.motion_y = closer ? y : n.motion_y;
-    }
-    return n;
-}
-
-/* The depth that the surface had in the last frame if it stood still. */
-static inline Real past_depth(global const FrameParams* frame, const Strip* s, Real depth) {
-    global const Camera *now = &frame->camera, *then = &frame->previous_camera;
-    const float3 forward = vector_at(then->forward);
-    const float3 moved = sub3(vector_at(now->origin), vector_at(then->origin));
-    const float step_x = m_divide(now->tan_right + now->tan_left, (float)s->width);
-    const float step_y = m_divide(now->tan_up + now->tan_down, (float)s->height);
-    const float along_x = dot3(vector_at(now->right), forward);
-    const float along_y = dot3(vector_at(now->up), forward);
-    const float sy = fma((float)s->y + 0.5f, -step_y, now->tan_up);
-    const float at_left = fma(along_x, -now->tan_left,
-                              fma(along_y, sy, dot3(vector_at(now->forward), forward)));
-    const Real slope = fma(strip_middles(s), splat(along_x * step_x), splat(at_left));
-    const Real past = fma(depth, slope, splat(dot3(moved, forward)));
-    return depth >= splat(FAR_AWAY) ? depth : past;
-}
-
-/* One work-item a strip. followed: two planes of motion in pixels, MACULA_NO_MOTION for what has no
- * history. range, past_range: two planes, the least and the greatest depth that a pixel's history
- * may have had; `ranged`: the surfaces say them, else the pixel's own and the nearest around it. */
-kernel void follow_surfaces(global const FrameParams* restrict frame, uint ranged,
+/* One work-item a strip. followed: as store_followed() writes it. range: two planes, what the next
+ * frame compares with: the pixel's own depth, or the nearest around it, which moves an edge. */
+kernel void follow_surfaces(global const FrameParams* restrict frame,
                             global const float* restrict surfaces,
                             global const float* restrict past_range, global float* restrict range,
                             global float* restrict followed) {
@@ -64,45 +11,9 @@ kernel void follow_surfaces(global const FrameParams* restrict frame, uint range
     if (s.y >= s.height)
         return;
     const uint pixels = frame->width * frame->height;
-    Nearest n = nearest_surface(surfaces, pixels, &s);
-    /* What is looked for in the last frame is the nearest surface, or all that a sample stands for.
-     */
-    Real nearest = n.depth, furthest = n.depth, least = n.depth;
-    Real most = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
-    if (ranged != 0u) {
-        const Real from = plane_at(surfaces + MACULA_PLANE_LEAST * pixels, &s, 0, 0);
-        const Real to = plane_at(surfaces + MACULA_PLANE_MOST * pixels, &s, 0, 0);
-        const Mask rough = from < to;
-        n.motion_x = rough ? plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0)
-                           : n.motion_x;
-        n.motion_y = rough ? plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0)
-                           : n.motion_y;
-        nearest = rough ? from : nearest;
-        furthest = rough ? to : furthest;
-        least = m_min(least, from);
-        most = to;
-    }
-    store_plane(range, &s, least);
-    store_plane(range + pixels, &s, most);
-    const Real x = strip_middles(&s) + n.motion_x;
-    const Real y = splat((float)s.y + 0.5f) + n.motion_y;
-    const Mask seen = strip_inside(&s) & (x > splat(0.0f)) & (y > splat(0.0f)) &
-                      (x < splat((float)s.width)) & (y < splat((float)s.height));
-    const Real none = splat(MACULA_NO_MOTION);
-    Real kept_x = none, kept_y = none;
-    if (any_lane(seen)) {
-        const Footprint f = footprint_at(x, y, seen, s.width, s.height);
-        const Real past_least = nearest_tap(past_range, &f);
-        const Real past_most = nearest_tap(past_range + pixels, &f);
-        /* Before the first frame all depths are 0. */
-        const Mask reaches = past_depth(frame, &s, nearest) <=
-                             past_most * splat(1.0f + DEPTH_TOLERANCE);
-        const Mask begins = past_depth(frame, &s, furthest) >=
-                            past_least * splat(1.0f - DEPTH_TOLERANCE);
-        const Mask same = seen & reaches & begins & (past_most > splat(0.0f));
-        kept_x = same ? n.motion_x : none;
-        kept_y = same ? n.motion_y : none;
-    }
-    store_plane(followed, &s, kept_x);
-    store_plane(followed + pixels, &s, kept_y);
+    const Nearest n = nearest_surface(surfaces, pixels, &s);
+    store_plane(range, &s, n.depth);
+    store_plane(range + pixels, &s, plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0));
+    const Depths depths = {n.depth, n.depth};
+    store_followed(frame, &s, n.motion_x, n.motion_y, depths, past_range, followed);
 }

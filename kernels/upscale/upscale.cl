@@ -102,7 +102,7 @@ static inline Mask in_disk(global const Fovea* fovea, Real distance) {
 kernel void upscale(global const FrameParams* restrict frame, uint target_width, uint target_height,
                     uint beyond, global const Fovea* restrict fovea,
                     global const Fovea* restrict past_fovea, global const float* restrict planes,
-                    global const float* restrict surfaces, global const float* restrict followed,
+                    global const float* restrict spreads, global const float* restrict followed,
                     global const float* restrict past_upscaled, global float* restrict upscaled,
                     global float4* restrict picture) {
     const Strip s = strip_of_item(target_width, target_height);
@@ -155,7 +155,7 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     const Real3 sample = scale3(scale_add3(now.smooth, guess, now.sum), m_divide(one, weight));
     Real slack = splat(1e-6f);
     if (beyond != MACULA_BEYOND_NOTHING)
-        slack = m_max(slack, source_at(surfaces + MACULA_PLANE_SPREAD * pixels, &source, 0, 0));
+        slack = m_max(slack, source_at(spreads, &source, 0, 0));
     const Real3 history = rectified(&now.around, past.colour, reach, slack);
     const Real worth = kept + weight;
     const Mask known = past.worth > zero;

@@ -238,6 +238,41 @@ TEST_P(EachMode, WhatMovesLeavesNoTrail) {
     }
 }
 
+// Squares of 0 and 1, about as large as the pixels that are rendered.
+scene::Scene checkerboard() {
+    scene::Mesh mesh;
+    for (int j = -30; j < 30; ++j)
+        for (int i = -30; i < 30; ++i)
+            add_quad(mesh, {0.2f * float(i), 0.2f * float(j), -4}, {0.2f, 0, 0}, {0, 0.2f, 0},
+                     (i + j) & 1);
+    const std::vector<std::uint32_t> materials = mesh.triangle_material;
+    mesh.triangle_material.assign(materials.size(), 0);
+    scene::Scene scene = scene_of(std::move(mesh), {{0.03f, 0.05f, 0}, {0, 0, -1}, 70.0f});
+    scene.materials.resize(2);
+    scene.meshes[0].triangle_material = materials;
+    scene.materials[0].diffuse = scene.materials[1].diffuse = glm::vec3(0.0f);
+    scene.materials[1].emission = glm::vec3(1.0f);
+    return scene;
+}
+
+double mean_of(const Picture& picture) {
+    double sum = 0.0;
+    for (const Float4& pixel : picture)
+        sum += pixel.x;
+    return sum / double(picture.size());
+}
+
+TEST_P(EachMode, ACheckerboardKeepsItsMean) {
+    const scene::Scene scene = checkerboard();
+    for (const float step : {0.0f, 0.013f}) {
+        WeierFrames frames(device(), scene, of_method(GetParam()));
+        for (std::uint32_t frame = 0; frame < 16; ++frame)
+            frames.run(frame, moved(scene, {step * float(frame), 0, 0}));
+        // A foveated frame has about 2000 samples of 0 or 1: two deviations of their mean.
+        EXPECT_NEAR(mean_of(frames.read<Float4>(frames.picture())), 0.5, 0.022) << "step " << step;
+    }
+}
+
 TEST_P(EachMode, WhatIsNotANumberIsGoneWithinAFrame) {
     WeierSetup setup = of_method(GetParam());
     const bool upscaled = method::find_method(GetParam()).upscaled;
