@@ -212,8 +212,10 @@ class View {
         engine.samples_per_pixel = spp;
         engine.depth = depth;
         engine.seed = o().seed;
-        // The thesis's buffer is as large as the image that is rendered (section 3.1.1).
-        engine.log_polar.sigma = 1.0f;
+        // The thesis's buffer is as large as the image that is rendered (section 3.1.1): of
+        // upscaled modes that is the default.
+        if (method == "logpolar")
+            engine.log_polar.sigma = 1.0f;
         engine.log_polar.disk = disk.value_or(engine.log_polar.disk);
         return {place_.on_device, place_.scene, engine};
     }
