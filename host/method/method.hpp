@@ -66,6 +66,11 @@ frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
+// The stages of a method that samples a buffer uniform in a space around the gaze, and the foveal
+// disk: kernel log-polar space, or log-rectilinear space if `rectangular`. `graph` has none yet.
+frame::Graph make_log_space(frame::Graph graph, const stage::Kit& kit, const Options& options,
+                            const stage::LogPolarOptions& shape, bool rectangular);
+
 // The images that every method with a slot-ordered G-buffer can deliver besides its own colour:
 // stages for within for_each_sample. Their names are those of render::image_formats().
 std::vector<frame::Stage> surface_images(const stage::Kit& kit, const Options& options);

@@ -31,18 +31,6 @@ WeierSetup logrect(float alpha, float sigma, float disk) {
     return setup;
 }
 
-// A gaze through a point of the image in pixels of 96 x 80.
-frame::Gaze gaze_through(const scene::Camera& view, float x, float y) {
-    const auto camera =
-        frame::make_camera(view, frame::tangents_of(view.vertical_fov_degrees, 96, 80));
-    const float sx = x / 96.0f * (camera.tan_left + camera.tan_right) - camera.tan_left;
-    const float sy = camera.tan_up - y / 80.0f * (camera.tan_up + camera.tan_down);
-    glm::vec3 direction;
-    for (int i = 0; i < 3; ++i)
-        direction[i] = camera.right[i] * sx + camera.up[i] * sy + camera.forward[i];
-    return {direction, 1.0f};
-}
-
 class EachMode : public testing::TestWithParam<LightMode> {};
 
 TEST_P(EachMode, ADiskOverTheWholeImageIsMethodFullBitForBit) {
