@@ -10,6 +10,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scenes/motion.hpp"
+
 namespace macula::scene {
 
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
@@ -135,6 +137,8 @@ struct Scene {
     std::vector<Light> lights;   // never empty after validate(): a headlight-like default is added
     std::vector<Camera> cameras; // never empty after validate(): one that sees the bounds is added
     CameraPath path;
+    Motion motion;                         // of instances; empty: nothing moves by key frames
+    std::optional<Physics> physics;        // moves instances, too, but not those of `motion`
     glm::vec3 ambient{0.1f};               // ambient radiance
     glm::vec3 background{0.0f};            // radiance of rays that miss
     float ambient_occlusion_radius = 0.0f; // 0: 15 % of the bounds' diagonal

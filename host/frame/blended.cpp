@@ -54,6 +54,8 @@ scene::Mesh part_of(const scene::Mesh& mesh, const std::vector<bool>& blended, b
 scene::Scene part_of(const scene::Scene& scene, const std::vector<bool>& blended, bool wanted) {
     scene::Scene part;
     part.instances = scene.instances;
+    part.motion = scene.motion;
+    part.physics = scene.physics;
     part.materials = scene.materials;
     if (wanted) // their alpha is no mask
         for (scene::Material& material : part.materials)

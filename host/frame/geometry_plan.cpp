@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scenes/mover.hpp"
+
 namespace macula::frame {
 namespace {
 
@@ -61,10 +63,13 @@ class Planner {
         uses_.assign(scene_.meshes.size(), 0);
         for (const scene::Instance& instance : scene_.instances)
             ++uses_[instance.mesh];
+        moves_.assign(scene_.instances.size(), 0);
+        for (const std::uint32_t instance : scene::moving_instances(scene_))
+            moves_.at(instance) = 1;
     }
 
     bool is_static(std::uint32_t instance) const {
-        return uses_[scene_.instances[instance].mesh] == 1 &&
+        return moves_[instance] == 0 && uses_[scene_.instances[instance].mesh] == 1 &&
                scene_.instances[instance].world_from_object.is_identity();
     }
 
@@ -149,7 +154,8 @@ class Planner {
 
     const scene::Scene& scene_;
     const std::vector<std::uint8_t>& is_masked_;
-    std::vector<std::uint32_t> uses_;
+    std::vector<std::uint32_t> uses_; // of each mesh
+    std::vector<std::uint8_t> moves_; // by instance
     std::uint64_t entries_ = 0;
     GeometryPlan plan_;
 };

@@ -13,23 +13,32 @@ DeviceScene::DeviceScene(const compute::Device& on, const scene::Scene& scene,
       surfaces(device, split ? split->opaque : scene, geometry.parts()),
       blended(
           split ? std::make_unique<frame::DeviceBlended>(device, split->blended, surfaces, options)
-                : nullptr) {}
+                : nullptr),
+      mover_(scene) {}
 
 void DeviceScene::set_transforms(std::span<const scene::Transform> world_from_object) {
     transforms_.assign(world_from_object.begin(), world_from_object.end());
     frames_to_place_ = 2;
 }
 
-void DeviceScene::begin_frame(std::uint64_t count) {
+void DeviceScene::begin_frame(std::uint64_t count, std::uint32_t frame,
+                              const scene::Observer& observer) {
     if (count <= frames_)
         return;
-    if (frames_to_place_ > 0) {
-        geometry.set_transforms(transforms_);
-        if (blended)
-            blended->geometry.set_transforms(transforms_);
+    if (mover_.moves())
+        set_transforms(mover_.at(frame, observer));
+    const bool first = frames_ == 0;
+    for (int i = 0; i < (first ? 2 : 1) && frames_to_place_ > 0; ++i) { // nothing moved before it
+        place();
         --frames_to_place_;
     }
     frames_ = count;
+}
+
+void DeviceScene::place() {
+    geometry.set_transforms(transforms_);
+    if (blended)
+        blended->geometry.set_transforms(transforms_);
 }
 
 } // namespace macula::render

@@ -13,6 +13,7 @@
 #include "host/frame/geometry.hpp"
 #include "host/frame/surfaces.hpp"
 #include "host/kernel/library.hpp"
+#include "scenes/mover.hpp"
 #include "scenes/scene.hpp"
 
 namespace macula::render {
@@ -31,9 +32,9 @@ class DeviceScene {
 
     // Of the renderers: frames begun by the one that has begun most.
     std::uint64_t frames() const { return frames_; }
-    // A renderer begins its frame number `count` (1 is the first). Whoever comes first moves what
-    // is to be moved; the others then see the same frame.
-    void begin_frame(std::uint64_t count);
+    // A renderer begins its frame number `count` (1 is the first), which shows the scene's frame
+    // `frame`. Whoever comes first moves what is to be moved; the others then see the same frame.
+    void begin_frame(std::uint64_t count, std::uint32_t frame, const scene::Observer& observer);
 
     compute::Device device;
     kernel::Library library;
@@ -46,7 +47,10 @@ class DeviceScene {
                 const frame::GeometryOptions& options,
                 const std::optional<frame::SplitScene>& split);
 
+    void place();
+
     std::uint64_t frames_ = 0;
+    scene::Mover mover_;
     std::vector<scene::Transform> transforms_;
     // Frames for which the transforms must still be set: the one in which something moved, and the
     // one after it, whose last frame's transforms are then its own.

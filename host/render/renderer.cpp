@@ -200,7 +200,8 @@ void Renderer::start(std::uint32_t frame, const scene::Camera& view, const frame
     const shared::Camera camera = frame::make_camera(view, tangents);
     const shared::FrameParams params =
         frame::make_params(s.settings, frame, camera, s.last_camera, gaze);
-    s.on_device->begin_frame(++s.begun);
+    s.on_device->begin_frame(++s.begun, frame,
+                             {view.eye, glm::vec3(params.gaze[0], params.gaze[1], params.gaze[2])});
     s.last_camera = camera;
 
     s.device.finish();

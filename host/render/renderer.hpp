@@ -119,7 +119,8 @@ class Renderer {
     // 16 hexadecimal digits: XXH3 (64 bits) of the picture's bits.
     std::string hash() const;
 
-    // Places the scene's instances anew for the next frame: one transform each. That frame's
+    // Places the scene's instances anew for the next frame: one transform each. For scenes in which
+    // nothing moves by itself (scene::Mover). That frame's
     // render() throws std::invalid_argument as frame::DeviceGeometry::set_transforms does.
     // Renderers that share a scene move it for one another.
     void set_transforms(std::span<const scene::Transform> world_from_object);
