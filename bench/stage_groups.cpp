@@ -16,6 +16,7 @@ constexpr std::array kEntries = {
     Entry{"detect errors and draw the mesh", StageGroup::reproject},
     Entry{"judge the history", StageGroup::reproject},
     Entry{"choose pixels", StageGroup::reproject},
+    Entry{"plan the refresh", StageGroup::reproject},
     Entry{"order the list", StageGroup::reproject},
     Entry{"generate ", StageGroup::ray_tracing},
     Entry{"trace ", StageGroup::ray_tracing},

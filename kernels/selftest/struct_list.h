@@ -8,6 +8,7 @@
 #include "shared/camera.h"
 #include "shared/lens.h"
 #include "shared/log_polar.h"
+#include "shared/rrm.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
 #include "shared/surface.h"
@@ -104,6 +105,11 @@
     MEMBER(LogPolarParams, thesis_lod)                                                             \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
-    MEMBER(Fovea, first_column)
+    MEMBER(Fovea, first_column)                                                                    \
+    STRUCT(RefreshRegion)                                                                          \
+    MEMBER(RefreshRegion, period)                                                                  \
+    STRUCT(RefreshPlan)                                                                            \
+    MEMBER(RefreshPlan, group_blocks)                                                              \
+    MEMBER(RefreshPlan, region)
 
 #endif
