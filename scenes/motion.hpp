@@ -10,6 +10,9 @@
 
 namespace macula::scene {
 
+struct Scene;
+struct Transform;
+
 // From a node's space to its parent's: scaled, turned, then moved.
 struct Pose {
     glm::vec3 translation{0.0f};
@@ -50,6 +53,13 @@ struct Motion {
     std::vector<MovedInstance> instances;
     float period = 0.0f; // frames after which it begins again; 0: it plays once
 };
+
+// World from node of every node in a frame, which need not be whole. The motion must have passed
+// validate().
+void place_nodes(const Motion& motion, float frame, std::vector<glm::mat4>& world_from_node);
+Transform transform_of(const glm::mat4& affine);
+// Places the instances that key frames move as they are in `frame`.
+void place_instances(Scene& scene, float frame);
 
 // Spheres that fall on what stands still (Smith et al. 2014, section 3.3).
 struct Physics {

@@ -28,8 +28,6 @@ class Mover {
     std::span<const Transform> at(std::uint32_t frame, const Observer& observer);
 
   private:
-    void place_nodes(float frame);
-
     bool moves_ = false;
     Motion motion_;
     std::vector<Transform> transforms_;

@@ -33,6 +33,7 @@ struct RenderOptions : ViewOptions {
     RrmOptions rrm;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    stage::RingOptions rings;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

@@ -58,6 +58,7 @@ struct Options {
     stage::LogPolarOptions log_polar; // of method "logpolar"
     stage::RrmOptions rrm;            // of method "rrm"
     method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
+    stage::RingOptions rings;         // of method "lowres_rings"
     frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

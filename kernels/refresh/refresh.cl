@@ -26,7 +26,8 @@ MACULA_ALWAYS_INLINE void place_packet(global const RefreshRegion* region, uint 
     const uint above = strip * MACULA_REFRESH_STRIP;
     const uint left = region->rows - above;
     const uint height = left < MACULA_REFRESH_STRIP ? left : MACULA_REFRESH_STRIP;
-    *column = rest / height;
+    const uint across = rest / height;
+    *column = across;
     *row = above + rest % height;
 }
 
@@ -46,9 +47,10 @@ MACULA_ALWAYS_INLINE Pixels peripheral_pixels(global const RefreshPlan* plan,
                                               global const RefreshRegion* region,
                                               global const uint* orders, uint index, Uint lane) {
     const uint passes = plan->group_blocks / region->period;
+    const uint place = index / passes;
     uint column, row;
-    place_packet(region, index / passes, &column, &row);
-    const Uint block = lane >> 2, pixel = lane & 3u;
+    place_packet(region, place, &column, &row);
+    const Uint block = lane >> 2, pixel = lane & 3u, pixel_row = pixel / MACULA_BLOCK_WIDTH;
     const Uint group_x = (region->column + column) * GROUPS_ACROSS + block % GROUPS_ACROSS;
     const Uint group_y = (region->row + row) * GROUPS_DOWN + block / GROUPS_ACROSS;
     const uint turn = plan->turn % region->period + index % passes * region->period;
@@ -59,10 +61,8 @@ MACULA_ALWAYS_INLINE Pixels peripheral_pixels(global const RefreshPlan* plan,
     Pixels p;
     p.x = (group_x * plan->group_width + (offset & 0xffffu)) * MACULA_BLOCK_WIDTH +
           pixel % MACULA_BLOCK_WIDTH;
-    p.y = (group_y * plan->group_height + (offset >> 16)) * BLOCK_HEIGHT +
-          pixel / MACULA_BLOCK_WIDTH;
-    p.refreshed =
-        (p.x < plan->x0) | (p.x >= plan->x1) | (p.y < plan->y0) | (p.y >= plan->y1);
+    p.y = (group_y * plan->group_height + (offset >> 16)) * BLOCK_HEIGHT + pixel_row;
+    p.refreshed = (p.x < plan->x0) | (p.x >= plan->x1) | (p.y < plan->y0) | (p.y >= plan->y1);
     return p;
 }
 

@@ -8,9 +8,10 @@
 #include "shared/camera.h"
 #include "shared/lens.h"
 #include "shared/log_polar.h"
-#include "shared/rrm.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/rings.h"
+#include "shared/rrm.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
 
@@ -106,6 +107,12 @@
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
     MEMBER(Fovea, first_column)                                                                    \
+    STRUCT(RingParams)                                                                             \
+    MEMBER(RingParams, blur)                                                                       \
+    MEMBER(RingParams, grid)                                                                       \
+    STRUCT(Rings)                                                                                  \
+    MEMBER(Rings, top)                                                                             \
+    MEMBER(Rings, bottom)                                                                          \
     STRUCT(RefreshRegion)                                                                          \
     MEMBER(RefreshRegion, period)                                                                  \
     STRUCT(RefreshPlan)                                                                            \
