@@ -37,6 +37,7 @@ constexpr std::array kEntries = {
     Entry{"keep the first ", StageGroup::ray_tracing},
     Entry{"extract the support image and G-buffer", StageGroup::cache_update},
     Entry{"measure the history's lag", StageGroup::cache_update},
+    Entry{"find what changed", StageGroup::cache_update},
     Entry{"update and merge the cache", StageGroup::merge},
     Entry{"post-process", StageGroup::post},
     Entry{"place ", StageGroup::merge},
