@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "scenes/physics/world.hpp"
+
 namespace macula::scene {
 namespace {
 
@@ -91,12 +93,29 @@ Mover::Mover(const Scene& scene)
       world_from_node_(scene.motion.nodes.size()) {
     for (const Instance& instance : scene.instances)
         transforms_.push_back(instance.world_from_object);
+    if (!scene.physics)
+        return;
+    spheres_ = scene.physics->spheres;
+    world_ = std::make_unique<physics::World>(scene);
 }
 
-std::span<const Transform> Mover::at(std::uint32_t frame, const Observer& /*observer*/) {
+Mover::~Mover() = default;
+
+std::span<const Transform> Mover::at(std::uint32_t frame, const Observer& observer) {
     auto time = static_cast<float>(frame);
     place_nodes(motion_.period > 0.0f ? std::fmod(time, motion_.period) : time);
+    if (world_)
+        place_spheres(frame, observer);
     return transforms_;
+}
+
+void Mover::place_spheres(std::uint32_t frame, const Observer& observer) {
+    if (frame < world_->frame())
+        world_->restart();
+    while (world_->frame() < frame)
+        world_->step(observer);
+    for (std::size_t i = 0; i < spheres_.size(); ++i)
+        transforms_[spheres_[i]] = world_->transform(i);
 }
 
 void Mover::place_nodes(float frame) {

@@ -21,6 +21,7 @@ constexpr std::array kScenes{
     Entry{"whitted", make_whitted},
     Entry{"tunnel_geometry", make_tunnel_geometry},
     Entry{"tunnel_maps", make_tunnel_maps},
+    Entry{"spheres", make_spheres},
 };
 
 // Meshes made here are placed once, where they were built, unless the maker placed them itself.
