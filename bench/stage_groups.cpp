@@ -16,6 +16,7 @@ constexpr std::array kEntries = {
     Entry{"detect errors and draw the mesh", StageGroup::reproject},
     Entry{"judge the history", StageGroup::reproject},
     Entry{"choose pixels", StageGroup::reproject},
+    Entry{"choose blocks", StageGroup::reproject},
     Entry{"order the list", StageGroup::reproject},
     Entry{"generate ", StageGroup::ray_tracing},
     Entry{"trace ", StageGroup::ray_tracing},
@@ -44,6 +45,7 @@ constexpr std::array kEntries = {
     Entry{"upscale", StageGroup::post},
     Entry{"sharpen", StageGroup::post},
     Entry{"remap", StageGroup::merge},
+    Entry{"blur the rings", StageGroup::merge},
     Entry{"summarise texels", StageGroup::merge},
 };
 

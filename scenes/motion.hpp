@@ -10,6 +10,9 @@
 
 namespace macula::scene {
 
+struct Scene;
+struct Transform;
+
 // From a node's space to its parent's: scaled, turned, then moved.
 struct Pose {
     glm::vec3 translation{0.0f};
@@ -51,11 +54,18 @@ struct Motion {
     float period = 0.0f; // frames after which it begins again; 0: it plays once
 };
 
-// How finely the spheres meet the obstacles, by their eccentricity: the angle in degrees between the
-// gaze and the nearest edge of the sphere, seen from the eye. docs/physics.md has the rule.
+// World from node of every node in a frame, which need not be whole. The motion must have passed
+// validate().
+void place_nodes(const Motion& motion, float frame, std::vector<glm::mat4>& world_from_node);
+Transform transform_of(const glm::mat4& affine);
+// Places the instances that key frames move as they are in `frame`.
+void place_instances(Scene& scene, float frame);
+
+// How finely the spheres meet the obstacles, by their eccentricity: the angle in degrees between
+// the gaze and the nearest edge of the sphere, seen from the eye. docs/physics.md has the rule.
 struct CollisionAcuity {
-    float exact_degrees = 5.0f;     // up to there triangles are met, 0..180; 180: everywhere
-    float levels_per_degree = 1.0f; // levels of the obstacle's tree left out beyond, 0..100
+    float exact_degrees = 5.0f;       // up to there triangles are met, 0..180; 180: everywhere
+    float levels_per_degree = 1.0f;   // levels of the obstacle's tree left out beyond, 0..100
     std::uint32_t coarsest_level = 4; // never less deep than this; 0: the box of all (the paper's)
 };
 

@@ -1,83 +1,10 @@
 #include "scenes/mover.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "scenes/physics/world.hpp"
 
 namespace macula::scene {
-namespace {
-
-glm::vec3 between(const glm::vec3& a, const glm::vec3& b, float t) {
-    return a * (1.0f - t) + b * t;
-}
-
-glm::quat between(const glm::quat& a, const glm::quat& b, float t) {
-    return glm::slerp(a, b, t);
-}
-
-glm::vec3 finished(const glm::vec3& v) {
-    return v;
-}
-
-glm::quat finished(const glm::quat& q) {
-    return glm::normalize(q);
-}
-
-// Of the key at `i`; of `cubic` the one in the middle of three.
-template <typename T>
-const T& value_of(const Track<T>& track, std::size_t i) {
-    return track.interpolation == Interpolation::cubic ? track.values[3 * i + 1] : track.values[i];
-}
-
-// glTF 2.0, appendix C.5.
-template <typename T>
-T cubic(const Track<T>& track, std::size_t i, float t) {
-    const float frames = track.frames[i + 1] - track.frames[i];
-    const float t2 = t * t, t3 = t2 * t;
-    const T &from = track.values[3 * i + 1], &leaving = track.values[3 * i + 2];
-    const T &arriving = track.values[3 * i + 3], &to = track.values[3 * i + 4];
-    return finished(from * (2.0f * t3 - 3.0f * t2 + 1.0f) +
-                    leaving * (frames * (t3 - 2.0f * t2 + t)) + to * (3.0f * t2 - 2.0f * t3) +
-                    arriving * (frames * (t3 - t2)));
-}
-
-template <typename T>
-T evaluate(const Track<T>& track, float frame, const T& rest) {
-    if (track.frames.empty())
-        return rest;
-    const auto next = std::upper_bound(track.frames.begin(), track.frames.end(), frame);
-    if (next == track.frames.begin())
-        return value_of(track, 0);
-    const auto i = static_cast<std::size_t>(next - track.frames.begin()) - 1;
-    if (next == track.frames.end() || track.interpolation == Interpolation::step)
-        return value_of(track, i);
-    const float t = (frame - track.frames[i]) / (track.frames[i + 1] - track.frames[i]);
-    if (track.interpolation == Interpolation::cubic)
-        return cubic(track, i, t);
-    return between(track.values[i], track.values[i + 1], t);
-}
-
-glm::mat4 matrix_of(const MotionNode& node, float frame) {
-    const glm::vec3 moved = evaluate(node.translation, frame, node.rest.translation);
-    const glm::quat turned = evaluate(node.rotation, frame, node.rest.rotation);
-    const glm::vec3 scaled = evaluate(node.scale, frame, node.rest.scale);
-    glm::mat4 m = glm::mat4_cast(turned);
-    for (int axis = 0; axis < 3; ++axis)
-        m[axis] *= scaled[axis];
-    m[3] = glm::vec4(moved, 1.0f);
-    return m;
-}
-
-Transform transform_of(const glm::mat4& m) {
-    Transform t;
-    for (int row = 0; row < 3; ++row)
-        t.row[row] = glm::vec4(m[0][row], m[1][row], m[2][row], m[3][row]);
-    return t;
-}
-
-} // namespace
 
 std::vector<std::uint32_t> moving_instances(const Scene& scene) {
     std::set<std::uint32_t> moving;
@@ -88,9 +15,7 @@ std::vector<std::uint32_t> moving_instances(const Scene& scene) {
     return {moving.begin(), moving.end()};
 }
 
-Mover::Mover(const Scene& scene)
-    : moves_(!moving_instances(scene).empty()), motion_(scene.motion),
-      world_from_node_(scene.motion.nodes.size()) {
+Mover::Mover(const Scene& scene) : moves_(!moving_instances(scene).empty()), motion_(scene.motion) {
     for (const Instance& instance : scene.instances)
         transforms_.push_back(instance.world_from_object);
     if (!scene.physics)
@@ -102,8 +27,9 @@ Mover::Mover(const Scene& scene)
 Mover::~Mover() = default;
 
 std::span<const Transform> Mover::at(std::uint32_t frame, const Observer& observer) {
-    auto time = static_cast<float>(frame);
-    place_nodes(motion_.period > 0.0f ? std::fmod(time, motion_.period) : time);
+    place_nodes(motion_, static_cast<float>(frame), world_from_node_);
+    for (const MovedInstance& moved : motion_.instances)
+        transforms_[moved.instance] = transform_of(world_from_node_[moved.node]);
     if (world_)
         place_spheres(frame, observer);
     return transforms_;
@@ -116,17 +42,6 @@ void Mover::place_spheres(std::uint32_t frame, const Observer& observer) {
         world_->step(observer);
     for (std::size_t i = 0; i < spheres_.size(); ++i)
         transforms_[spheres_[i]] = world_->transform(i);
-}
-
-void Mover::place_nodes(float frame) {
-    for (std::size_t i = 0; i < motion_.nodes.size(); ++i) {
-        const MotionNode& node = motion_.nodes[i];
-        const glm::mat4 local = matrix_of(node, frame);
-        world_from_node_[i] =
-            node.parent == kNoNode ? local : world_from_node_[node.parent] * local;
-    }
-    for (const MovedInstance& moved : motion_.instances)
-        transforms_[moved.instance] = transform_of(world_from_node_[moved.node]);
 }
 
 } // namespace macula::scene

@@ -37,7 +37,6 @@ class Mover {
     std::span<const Transform> at(std::uint32_t frame, const Observer& observer);
 
   private:
-    void place_nodes(float frame);
     void place_spheres(std::uint32_t frame, const Observer& observer);
 
     bool moves_ = false;

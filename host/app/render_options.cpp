@@ -12,6 +12,7 @@
 #include "host/app/aov.hpp"
 #include "host/app/command.hpp"
 #include "host/app/log_polar_options.hpp"
+#include "host/app/ring_options.hpp"
 #include "host/app/temporal_options.hpp"
 #include "host/kernel/program_cache.hpp"
 #include "scenes/load.hpp"
@@ -119,6 +120,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.lowres_scale = options.weier.lowres_scale;
     engine.log_polar = options.log_polar;
     engine.temporal = options.temporal;
+    engine.rings = options.rings;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
@@ -158,6 +160,7 @@ void RenderOptions::add_to(CLI::App& command) {
     weier.add_to(command);
     add_log_polar_options(command, log_polar);
     add_temporal_options(command, temporal);
+    add_ring_options(command, rings);
     command.add_option("--variant", variant, "Traversal variant for all rays");
     command
         .add_option("--lanes", lanes,

@@ -31,6 +31,7 @@ struct RenderOptions : ViewOptions {
     WeierOptions weier;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    stage::RingOptions rings;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

@@ -12,6 +12,7 @@
 #include "host/stage/kit.hpp"
 #include "host/stage/light.hpp"
 #include "host/stage/log_polar.hpp"
+#include "host/stage/rings.hpp"
 
 namespace macula::method {
 
@@ -36,6 +37,7 @@ struct Options {
     float lowres_scale = 0.46f; // of method lowres: part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar;
     TemporalOptions temporal;
+    stage::RingOptions rings;
 };
 
 struct Method {
@@ -64,6 +66,7 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options);
 frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
 frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
+frame::Graph make_lowres_rings(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
 // The stages of a method that samples a buffer uniform in a space around the gaze, and the foveal

@@ -56,6 +56,7 @@ struct Options {
     float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar; // of method "logpolar"
     method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
+    stage::RingOptions rings;         // of method "lowres_rings"
     frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

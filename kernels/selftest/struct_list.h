@@ -10,6 +10,7 @@
 #include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/rings.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
 
@@ -104,6 +105,12 @@
     MEMBER(LogPolarParams, thesis_lod)                                                             \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
-    MEMBER(Fovea, first_column)
+    MEMBER(Fovea, first_column)                                                                    \
+    STRUCT(RingParams)                                                                             \
+    MEMBER(RingParams, blur)                                                                       \
+    MEMBER(RingParams, grid)                                                                       \
+    STRUCT(Rings)                                                                                  \
+    MEMBER(Rings, top)                                                                             \
+    MEMBER(Rings, bottom)
 
 #endif

@@ -19,6 +19,7 @@ constexpr std::array kScenes{
     Entry{"cornell", make_cornell},
     Entry{"cornell_spheres", make_cornell_spheres},
     Entry{"whitted", make_whitted},
+    Entry{"whitted_moving", make_whitted_moving},
     Entry{"tunnel_geometry", make_tunnel_geometry},
     Entry{"tunnel_maps", make_tunnel_maps},
     Entry{"spheres", make_spheres},
@@ -41,6 +42,7 @@ std::optional<Scene> make(std::string_view name, const SceneParams& params) {
         Scene scene = entry.make(params);
         scene.name = name;
         place_meshes(scene);
+        place_instances(scene, 0.0f);
         return scene;
     }
     return std::nullopt;

@@ -1,10 +1,10 @@
 // The scene of Whitted, "An Improved Illumination Model for Shaded Display" (1980): a glass and a
 // mirror-like sphere over a red and yellow checkerboard under a blue sky.
-#include <array>
+#include "scenes/procedural/whitted.hpp"
+
 #include <vector>
 
 #include "scenes/procedural/builtin.hpp"
-#include "scenes/procedural/kit.hpp"
 #include "scenes/procedural/path.hpp"
 #include "scenes/procedural/random.hpp"
 #include "scenes/procedural/textures.hpp"
@@ -12,17 +12,15 @@
 namespace macula::scene::procedural {
 namespace {
 
-constexpr glm::ivec2 kSphereCells{192, 96};
-constexpr glm::vec3 kGlassCentre{0.0f, 1.75f, 1.2f}, kMirrorCentre{1.35f, 1.0f, -1.5f};
-constexpr float kGlassRadius = 1.05f, kMirrorRadius = 1.0f;
-
-std::uint32_t add_board(Scene& scene) {
+std::uint32_t add_checks(Scene& scene) {
     const std::uint32_t texture = add_texture(scene, "checkerboard", {256, 256}, [](glm::vec2 uv) {
         const bool odd = (uv.x < 0.5f) != (uv.y < 0.5f);
         return Texel{odd ? rgb(0xe8c81e) : rgb(0xc4201c)};
     });
     return add_material(scene, "checkerboard", Maps{texture, kNoTexture});
 }
+
+} // namespace
 
 std::uint32_t add_glass(Scene& scene) {
     Material glass;
@@ -48,42 +46,17 @@ std::uint32_t add_mirror(Scene& scene) {
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-// The board ends where the picture's did not show it. Cells of one unit, two to a repeat.
-void board(MeshBuilder& b, std::uint32_t material) {
+void add_board(MeshBuilder& b, Scene& scene) {
+    // The board ends where the picture's did not show it. Cells of one unit, two to a repeat.
     constexpr float kHalfWidth = 6.0f, kNear = 9.0f, kFar = -19.0f;
     b.face({{-kHalfWidth, 0, kNear},
             {kHalfWidth, 0, kNear},
             {kHalfWidth, 0, kFar},
             {-kHalfWidth, 0, kFar}},
-           {material, 2.0f});
+           {add_checks(scene), 2.0f});
 }
 
-CameraPath tour() {
-    // Once round both spheres, dipping between them and the board.
-    constexpr int kPoints = 12;
-    std::vector<Waypoint> waypoints;
-    const glm::vec3 middle{0.6f, 1.3f, -0.1f};
-    for (int i = 0; i < kPoints; ++i) {
-        const float turn = static_cast<float>(i) / kPoints;
-        const glm::vec2 round = sin_cos_turns(turn + 0.25f), dip = sin_cos_turns(2.0f * turn);
-        const float distance = 5.2f + 1.4f * dip.x;
-        const glm::vec3 eye{middle.x + distance * round.x, 2.1f + 1.3f * dip.y,
-                            middle.z + distance * round.y};
-        waypoints.push_back({eye, middle});
-    }
-    return fly_through(waypoints, true);
-}
-
-} // namespace
-
-Scene make_whitted(const SceneParams&) {
-    Scene scene;
-    MeshBuilder b("whitted");
-    board(b, add_board(scene));
-    sphere(b, kGlassCentre, kGlassRadius, kSphereCells, {add_glass(scene), 1.0f});
-    sphere(b, kMirrorCentre, kMirrorRadius, kSphereCells, {add_mirror(scene), 1.0f});
-    scene.meshes.push_back(b.take());
-
+void add_whitted_view(Scene& scene) {
     Light light;
     light.kind = LightKind::point;
     light.position = {-6.0f, 11.0f, 7.0f};
@@ -93,7 +66,32 @@ Scene make_whitted(const SceneParams&) {
     scene.ambient = glm::vec3{0.22f};
     scene.background = linear_from_srgb(rgb(0x3a6fc4));
     scene.cameras.push_back({"classic", {0.2f, 2.0f, 7.2f}, {0.3f, 1.35f, 0.0f}, {0, 1, 0}, 42.0f});
-    scene.path = tour();
+}
+
+CameraPath round_tour(glm::vec2 mean, glm::vec2 dip) {
+    constexpr int kPoints = 12;
+    std::vector<Waypoint> waypoints;
+    const glm::vec3 middle{0.6f, 1.3f, -0.1f};
+    for (int i = 0; i < kPoints; ++i) {
+        const float turn = static_cast<float>(i) / kPoints;
+        const glm::vec2 round = sin_cos_turns(turn + 0.25f), wave = sin_cos_turns(2.0f * turn);
+        const float distance = mean.x + dip.x * wave.x;
+        const glm::vec3 eye{middle.x + distance * round.x, mean.y + dip.y * wave.y,
+                            middle.z + distance * round.y};
+        waypoints.push_back({eye, middle});
+    }
+    return fly_through(waypoints, true);
+}
+
+Scene make_whitted(const SceneParams&) {
+    Scene scene;
+    MeshBuilder b("whitted");
+    add_board(b, scene);
+    sphere(b, kGlassCentre, kGlassRadius, kSphereCells, {add_glass(scene), 1.0f});
+    sphere(b, kMirrorCentre, kMirrorRadius, kSphereCells, {add_mirror(scene), 1.0f});
+    scene.meshes.push_back(b.take());
+    add_whitted_view(scene);
+    scene.path = round_tour({5.2f, 2.1f}, {1.4f, 1.3f});
     return scene;
 }
 
