@@ -17,6 +17,7 @@ constexpr std::array kEntries = {
     Entry{"judge the history", StageGroup::reproject},
     Entry{"choose pixels", StageGroup::reproject},
     Entry{"choose blocks", StageGroup::reproject},
+    Entry{"plan the refresh", StageGroup::reproject},
     Entry{"order the list", StageGroup::reproject},
     Entry{"generate ", StageGroup::ray_tracing},
     Entry{"trace ", StageGroup::ray_tracing},
