@@ -119,6 +119,7 @@ render::Options engine_options(const RenderOptions& options) {
     engine.weier = engine_options(options.weier);
     engine.lowres_scale = options.weier.lowres_scale;
     engine.log_polar = options.log_polar;
+    engine.rrm = engine_options(options.rrm);
     engine.temporal = options.temporal;
     engine.rings = options.rings;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
@@ -159,6 +160,7 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
     weier.add_to(command);
     add_log_polar_options(command, log_polar);
+    rrm.add_to(command);
     add_temporal_options(command, temporal);
     add_ring_options(command, rings);
     command.add_option("--variant", variant, "Traversal variant for all rays");

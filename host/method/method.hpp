@@ -13,6 +13,7 @@
 #include "host/stage/light.hpp"
 #include "host/stage/log_polar.hpp"
 #include "host/stage/rings.hpp"
+#include "host/stage/rrm.hpp"
 
 namespace macula::method {
 
@@ -38,6 +39,7 @@ struct Options {
     stage::LogPolarOptions log_polar;
     TemporalOptions temporal;
     stage::RingOptions rings;
+    stage::RrmOptions rrm;
 };
 
 struct Method {
@@ -67,6 +69,7 @@ frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
 frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres_rings(const stage::Kit& kit, const Options& options);
+frame::Graph make_rrm(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
 // The stages of a method that samples a buffer uniform in a space around the gaze, and the foveal

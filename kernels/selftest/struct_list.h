@@ -11,6 +11,7 @@
 #include "shared/mask.h"
 #include "shared/ray.h"
 #include "shared/rings.h"
+#include "shared/rrm.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
 
@@ -111,6 +112,11 @@
     MEMBER(RingParams, grid)                                                                       \
     STRUCT(Rings)                                                                                  \
     MEMBER(Rings, top)                                                                             \
-    MEMBER(Rings, bottom)
+    MEMBER(Rings, bottom)                                                                          \
+    STRUCT(RefreshRegion)                                                                          \
+    MEMBER(RefreshRegion, period)                                                                  \
+    STRUCT(RefreshPlan)                                                                            \
+    MEMBER(RefreshPlan, group_blocks)                                                              \
+    MEMBER(RefreshPlan, region)
 
 #endif

@@ -28,6 +28,7 @@ struct WeierSetup {
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
     stage::RingOptions rings;
+    stage::RrmOptions rrm;
     bool jitter = true; // where the method has it
     std::uint32_t samples_per_pixel = 1;
     frame::GeometryOptions geometry;
@@ -59,7 +60,7 @@ class WeierFrames {
                                size_.height, lights_, occlusion() ? setup.samples : 0, false,
                                totals_, 1, setup.width, setup.height, setup.depth},
                               {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
-                               setup.temporal, setup.rings})) {
+                               setup.temporal, setup.rings, setup.rrm})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
         outputs.insert(method_.picture());
