@@ -21,7 +21,7 @@ Mover::Mover(const Scene& scene) : moves_(!moving_instances(scene).empty()), mot
 std::span<const Transform> Mover::at(std::uint32_t frame, const Observer& /*observer*/) {
     place_nodes(motion_, static_cast<float>(frame), world_from_node_);
     for (const MovedInstance& moved : motion_.instances)
-        transforms_[moved.instance] = transform_of(world_from_node_[moved.node]);
+        transforms_[moved.instance] = placed(moved, world_from_node_);
     return transforms_;
 }
 
