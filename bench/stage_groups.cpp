@@ -16,6 +16,8 @@ constexpr std::array kEntries = {
     Entry{"detect errors and draw the mesh", StageGroup::reproject},
     Entry{"judge the history", StageGroup::reproject},
     Entry{"choose pixels", StageGroup::reproject},
+    Entry{"choose blocks", StageGroup::reproject},
+    Entry{"plan the refresh", StageGroup::reproject},
     Entry{"order the list", StageGroup::reproject},
     Entry{"generate ", StageGroup::ray_tracing},
     Entry{"trace ", StageGroup::ray_tracing},
@@ -35,6 +37,7 @@ constexpr std::array kEntries = {
     Entry{"keep the first ", StageGroup::ray_tracing},
     Entry{"extract the support image and G-buffer", StageGroup::cache_update},
     Entry{"measure the history's lag", StageGroup::cache_update},
+    Entry{"find what changed", StageGroup::cache_update},
     Entry{"update and merge the cache", StageGroup::merge},
     Entry{"post-process", StageGroup::post},
     Entry{"place ", StageGroup::merge},
@@ -44,6 +47,7 @@ constexpr std::array kEntries = {
     Entry{"upscale", StageGroup::post},
     Entry{"sharpen", StageGroup::post},
     Entry{"remap", StageGroup::merge},
+    Entry{"blur the rings", StageGroup::merge},
     Entry{"summarise texels", StageGroup::merge},
 };
 

@@ -12,6 +12,7 @@
 #include "host/app/aov.hpp"
 #include "host/app/command.hpp"
 #include "host/app/log_polar_options.hpp"
+#include "host/app/ring_options.hpp"
 #include "host/app/temporal_options.hpp"
 #include "host/kernel/program_cache.hpp"
 #include "scenes/load.hpp"
@@ -118,7 +119,9 @@ render::Options engine_options(const RenderOptions& options) {
     engine.weier = engine_options(options.weier);
     engine.lowres_scale = options.weier.lowres_scale;
     engine.log_polar = options.log_polar;
+    engine.rrm = engine_options(options.rrm);
     engine.temporal = options.temporal;
+    engine.rings = options.rings;
     std::tie(engine.width, engine.height) = size_of(options, engine.width, engine.height);
     for (const std::string& aov : options.aovs)
         engine.images.push_back(find_aov(aov).image);
@@ -157,7 +160,9 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--scene-path", scene_path, "Folder that scene files refer to (repeatable)");
     weier.add_to(command);
     add_log_polar_options(command, log_polar);
+    rrm.add_to(command);
     add_temporal_options(command, temporal);
+    add_ring_options(command, rings);
     command.add_option("--variant", variant, "Traversal variant for all rays");
     command
         .add_option("--lanes", lanes,

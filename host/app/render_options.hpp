@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/app/rrm_options.hpp"
 #include "host/app/view_options.hpp"
 #include "host/app/weier_options.hpp"
 #include "host/render/renderer.hpp"
@@ -29,8 +30,10 @@ struct RenderOptions : ViewOptions {
     std::uint64_t scene_seed = 1;
     float ambient_occlusion_radius = 0.0f, exposure = 1.0f, lod_bias = 0.0f;
     WeierOptions weier;
+    RrmOptions rrm;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    stage::RingOptions rings;
     std::vector<std::string> scene_path, formats = {"exr", "png"}, aovs;
     std::filesystem::path out = ".";
     bool json = false, hash = false, resume = false, list_variants = false, list_aovs = false;

@@ -180,6 +180,7 @@ void Graph::execute(const shared::FrameParams& params) {
         run_group(first, last, params);
         first = last;
     }
+    resources_->end_first_frame();
 }
 
 const compute::Buffer& Graph::result(const std::string& name) const {

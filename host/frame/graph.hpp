@@ -24,6 +24,8 @@ class Run {
     const shared::FrameParams& params() const { return params_; }
     // Pixel sample being rendered, < samples_per_pixel; 0 outside of for_each_sample.
     std::uint32_t sample() const { return sample_; }
+    // True until a frame has been rendered since the beginning or the last forget().
+    bool first_frame() const { return resources_.first_frame(); }
     // The frame parameters on the device.
     compute::Buffer& params_buffer() { return resources_.params(); }
     // Empty (a null pointer to a kernel) when nobody reads the resource.

@@ -68,6 +68,7 @@ void Resources::advance() {
 }
 
 void Resources::clear_history() {
+    first_frame_ = true;
     for (auto& [name, buffer] : last_)
         current_[name].fill(0); // advance() makes it the last frame's
 }

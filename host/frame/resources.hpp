@@ -44,10 +44,14 @@ class Resources {
 
     // The frame's contents become the last frame's.
     void advance();
+    // Also at the beginning: the next frame is a first one.
     void clear_history();
+    void end_first_frame() { first_frame_ = false; }
+    bool first_frame() const { return first_frame_; }
 
   private:
     compute::Device& device_;
+    bool first_frame_ = true;
     compute::Buffer params_, none_;
     std::map<std::string, compute::Buffer> current_, last_, scratch_, storage_;
     std::map<std::string, std::uint64_t> scratch_bytes_;

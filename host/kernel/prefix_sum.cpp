@@ -1,5 +1,7 @@
 #include "host/kernel/prefix_sum.hpp"
 
+#include <algorithm>
+
 namespace macula::kernel {
 namespace {
 
@@ -47,18 +49,18 @@ PrefixSum::PrefixSum(Library& library, const compute::Device& device, std::uint6
 const compute::Buffer& PrefixSum::tile_offsets(const compute::Buffer& values,
                                                const compute::Buffer& count,
                                                const compute::Buffer& total,
-                                               const std::string& stage) {
+                                               const std::string& stage, std::uint64_t at_most) {
     require_room(values, capacity_);
     if (total.state() == count.state())
         throw compute::Error("prefix sum: the total would overwrite the count that it still needs");
-    const auto capacity = static_cast<std::uint32_t>(capacity_);
+    const auto capacity = static_cast<std::uint32_t>(std::min(capacity_, at_most));
     const auto top = static_cast<std::uint32_t>(sums_.size());
     const auto input = [&](std::uint32_t level) { return level == 0 ? values : sums_[level - 1]; };
     const auto launch = [&](compute::Kernel& kernel, std::uint64_t tiles) {
         kernel.launch(stage, {static_cast<std::size_t>(tiles) * kWorkGroup}, {kWorkGroup});
     };
     std::vector<std::uint64_t> tiles;
-    std::uint64_t n = capacity_;
+    std::uint64_t n = capacity;
     for (std::uint32_t level = 0; level < top; ++level) {
         n = tiles_of(n);
         tiles.push_back(n);
@@ -86,9 +88,9 @@ Compaction::Compaction(Library& library, const compute::Device& device, std::uin
 
 void Compaction::run(const compute::Buffer& flags, const compute::Buffer& count,
                      const compute::Buffer& indices, const compute::Buffer& total,
-                     const std::string& stage) {
-    const compute::Buffer& before = sum_.tile_offsets(flags, count, total, stage);
-    const auto capacity = static_cast<std::uint32_t>(sum_.capacity());
+                     const std::string& stage, std::uint64_t at_most) {
+    const compute::Buffer& before = sum_.tile_offsets(flags, count, total, stage, at_most);
+    const auto capacity = static_cast<std::uint32_t>(std::min(sum_.capacity(), at_most));
     compact_.set(flags, count, capacity, before, indices)
         .launch(stage, {compute::Range::cover(capacity, kTile) / kItems}, {kWorkGroup});
 }

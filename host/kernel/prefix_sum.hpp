@@ -27,9 +27,11 @@ class PrefixSum {
                    const std::string& stage = "prefix sum");
 
     /// The offsets of the tiles of 2048 elements alone: what their elements' offsets begin with.
-    /// Valid until the next call.
+    /// Valid until the next call. The launches cover `at_most` elements; a count above it counts as
+    /// it.
     const compute::Buffer& tile_offsets(const compute::Buffer& values, const compute::Buffer& count,
-                                        const compute::Buffer& total, const std::string& stage);
+                                        const compute::Buffer& total, const std::string& stage,
+                                        std::uint64_t at_most = kMaxCapacity);
 
     std::uint64_t capacity() const { return capacity_; }
 
@@ -46,10 +48,11 @@ class Compaction {
     Compaction(Library& library, const compute::Device& device, std::uint64_t capacity);
 
     /// flags: one uint for each element, 0 or 1. Writes `indices` (room for as many as are set) and
-    /// *total, their number. `total` must not be `count`.
+    /// *total, their number. `total` must not be `count`. `at_most`: as of tile_offsets().
     void run(const compute::Buffer& flags, const compute::Buffer& count,
              const compute::Buffer& indices, const compute::Buffer& total,
-             const std::string& stage = "compaction");
+             const std::string& stage = "compaction",
+             std::uint64_t at_most = PrefixSum::kMaxCapacity);
 
   private:
     PrefixSum sum_;

@@ -12,6 +12,8 @@
 #include "host/stage/kit.hpp"
 #include "host/stage/light.hpp"
 #include "host/stage/log_polar.hpp"
+#include "host/stage/rings.hpp"
+#include "host/stage/rrm.hpp"
 
 namespace macula::method {
 
@@ -36,6 +38,8 @@ struct Options {
     float lowres_scale = 0.46f; // of method lowres: part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar;
     TemporalOptions temporal;
+    stage::RingOptions rings;
+    stage::RrmOptions rrm;
 };
 
 struct Method {
@@ -64,6 +68,8 @@ frame::Graph make_full(const stage::Kit& kit, const Options& options);
 frame::Graph make_logpolar(const stage::Kit& kit, const Options& options);
 frame::Graph make_logrect(const stage::Kit& kit, const Options& options);
 frame::Graph make_lowres(const stage::Kit& kit, const Options& options);
+frame::Graph make_lowres_rings(const stage::Kit& kit, const Options& options);
+frame::Graph make_rrm(const stage::Kit& kit, const Options& options);
 frame::Graph make_weier(const stage::Kit& kit, const Options& options);
 
 // The stages of a method that samples a buffer uniform in a space around the gaze, and the foveal

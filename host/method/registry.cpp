@@ -25,6 +25,9 @@ constexpr std::array kMethods = {
     Method{"logrect+taa+upscale", "the same at fewer pixels, smoothed and enlarged over frames",
            make_logrect, true, true},
     Method{"lowres", "uniform lower resolution, enlarged by a bicubic filter", make_lowres},
+    Method{"lowres_rings", "blocks of pixels that grow in rings around the gaze, blurred",
+           make_lowres_rings},
+    Method{"rrm", "the fovea in every frame, the rest in turns (Smith et al. 2014)", make_rrm},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},
 };
 

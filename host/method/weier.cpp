@@ -40,10 +40,12 @@ struct Light {
 frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     const Light light(options.lights, options.weier.post);
     const bool occlusion = light.occlusion;
-    const stage::FoveatedKit foveated{kit,
-                                      std::make_shared<stage::SupportGrid>(
-                                          stage::make_params(options.weier, kit.width, kit.height)),
-                                      options.weier.overlay ? "image" : "colour"};
+    const stage::FoveatedKit foveated{
+        kit,
+        std::make_shared<stage::SupportGrid>(
+            stage::make_params(options.weier, kit.width, kit.height)),
+        options.weier.overlay ? "image" : "colour",
+        kit.geometry.instanced() ? std::make_shared<stage::InstanceMotions>() : nullptr};
     frame::Graph graph("weier", "foveated samples and a reprojected cache (Weier et al. 2016)");
 
     // Figure 2, block 1: reprojection and ray generation.
@@ -75,6 +77,8 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     graph.add(stage::extract_support(foveated));
     if (catch_up)
         graph.add(stage::measure_lag(foveated));
+    if (foveated.can_move())
+        graph.add(stage::find_change(foveated, options.lights != frame::LightMode::point));
     graph.add(stage::merge_cache(foveated, catch_up, light.image, light.bytes))
         .add(stage::show_intermediates(foveated));
     if (options.weier.overlay)

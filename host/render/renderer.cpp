@@ -101,8 +101,8 @@ std::shared_ptr<DeviceScene> checked_scene(const compute::Device& device, const 
 
 frame::Graph make_graph(const stage::Kit& kit, const Options& o) {
     const method::Method& method = method::find_method(o.method);
-    frame::Graph graph =
-        method.make(kit, {o.lights, o.weier, o.lowres_scale, o.log_polar, o.temporal});
+    frame::Graph graph = method.make(
+        kit, {o.lights, o.weier, o.lowres_scale, o.log_polar, o.temporal, o.rings, o.rrm});
     if (o.lens && !o.tangents)
         throw std::invalid_argument("a lens needs the tangents of its display's field of view");
     if (o.lens)

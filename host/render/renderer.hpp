@@ -27,6 +27,7 @@
 #include "host/stage/foveated.hpp"
 #include "host/stage/lens.hpp"
 #include "host/stage/log_polar.hpp"
+#include "host/stage/rrm.hpp"
 #include "scenes/scene.hpp"
 
 namespace macula::render {
@@ -55,7 +56,9 @@ struct Options {
     stage::WeierOptions weier;  // of method "weier"
     float lowres_scale = 0.46f; // of method "lowres": part of the pixels along each axis, 0..1
     stage::LogPolarOptions log_polar; // of method "logpolar"
+    stage::RrmOptions rrm;            // of method "rrm"
     method::TemporalOptions temporal; // of methods "...+taa" and "...+upscale"
+    stage::RingOptions rings;         // of method "lowres_rings"
     frame::GeometryOptions geometry;  // unless the scene is on the device already
     std::uint32_t warm_up_frames = 1; // that do not count in the statistics
 };

@@ -23,10 +23,11 @@ class AmbientOcclusion {
         flag_
             .set(run[kit_.named("ray count")], run[kit_.named("surface triangle")],
                  run.scratch("queue flags"), run[kit_.named("surface openness")])
-            .launch(kit_.named("flag surfaces"), kit_.lane_items(kit_.slots()), kit_.lane_group());
+            .launch(kit_.named("flag surfaces"), kit_.lane_items(kit_.launched()),
+                    kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run[kit_.named("ray count")],
                         run.scratch("queue"), run.scratch("queue count"),
-                        kit_.named("queue surfaces"));
+                        kit_.named("queue surfaces"), kit_.launched());
         const std::uint32_t samples = kit_.ambient_occlusion_samples;
         const std::uint32_t entries = batch_entries(kit_, samples);
         for_each_batch(kit_, entries, [&](std::uint32_t first) {

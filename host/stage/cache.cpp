@@ -22,16 +22,23 @@ frame::Stage extract_support(const FoveatedKit& kit) {
     stage.reads = {"sampling masks", "list offsets", "sampled colour", "surface depth",
                    "surface geometric normal"};
     stage.writes = {kit.per_support("support image", 16), kit.per_support("support geometry", 16)};
+    if (kit.can_move()) {
+        stage.reads.push_back("surface triangle");
+        stage.writes.push_back(kit.per_support("support triangle", 4));
+    }
     stage.prepare = [kit, name = stage.name] {
         kit.grid->prepare(kit.kit);
         auto kernel = kit.kit.library.kernel(kernel::VariantKey("cache/support"), "extract_support",
                                              kit.kit.device);
         return [kit, name, kernel](frame::Run& run) mutable {
+            const compute::Buffer none;
+            const bool any = kit.can_move();
             kernel
                 .set(run.params_buffer(), kit.grid->params_buffer, kit.grid->cell_columns,
                      kit.grid->cell_rows, run["sampling masks"], run["list offsets"],
                      run["sampled colour"], run["surface depth"], run["surface geometric normal"],
-                     run["support image"], run["support geometry"])
+                     any ? run["surface triangle"] : none, run["support image"],
+                     run["support geometry"], any ? run["support triangle"] : none)
                 .launch(name, {kit.packets()}, {kGroup});
         };
     };
@@ -58,9 +65,43 @@ frame::Stage measure_lag(const FoveatedKit& kit) {
                 .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
                      grid.mesh_columns, grid.mesh_rows, run["mesh vertices"], run["pixel keys"],
                      run["history kept"], run.last(kit.image), run["support image"],
-                     run["support geometry"], run.scratch("lag"))
+                     run["support geometry"], kit.moved(), run.scratch("lag"))
                 .launch(name, {range}, {kGroup});
             agree.set(grid.params_buffer, run.scratch("lag"), run["history correction"])
+                .launch(name, {range}, {kGroup});
+        };
+    };
+    return stage;
+}
+
+frame::Stage find_change(const FoveatedKit& kit, bool noisy) {
+    frame::Stage stage;
+    stage.name = "find what changed";
+    stage.reads = {"mesh vertices", "pixel keys",    "resampling info",
+                   "history kept",  "support image", "support geometry"};
+    stage.reads_last = {kit.image};
+    stage.writes = {kit.per_support("support change", 4)};
+    stage.scratch = {kit.per_support("difference from the history", 4)};
+    stage.prepare = [kit, noisy, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        const auto key = kernel::VariantKey("cache/change").parameter("noisy", noisy ? 1 : 0);
+        auto measure = kit.kit.library.kernel(key, "measure_change", kit.kit.device);
+        auto find = kit.kit.library.kernel(key, "find_change", kit.kit.device);
+        return [kit, name, measure, find](frame::Run& run) mutable {
+            if (kit.moved() == 0) {
+                run["support change"].fill(0);
+                return;
+            }
+            const SupportGrid& grid = *kit.grid;
+            const auto range = compute::Range::cover(grid.samples(), kGroup);
+            const compute::Buffer difference = run.scratch("difference from the history");
+            measure
+                .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
+                     grid.mesh_columns, grid.mesh_rows, run["mesh vertices"], run["pixel keys"],
+                     run["resampling info"], run["history kept"], run.last(kit.image),
+                     run["support image"], run["support geometry"], difference)
+                .launch(name, {range}, {kGroup});
+            find.set(grid.params_buffer, difference, run["support change"])
                 .launch(name, {range}, {kGroup});
         };
     };
@@ -76,6 +117,8 @@ frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::strin
                    "sampled colour", "surface depth",  "list offsets"};
     if (catch_up)
         stage.reads.push_back("history correction");
+    if (kit.can_move())
+        stage.reads.push_back("support change");
     stage.reads_last = {kit.image, "cache info"};
     stage.writes = {per_pixel(kit.kit, kit.image, 16), per_pixel(kit.kit, "cache info", 8),
                     per_pixel(kit.kit, "reprojected colour", 16)};
@@ -101,9 +144,9 @@ frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::strin
                      run["history kept"], run["sampling masks"], run["list offsets"],
                      run.last(kit.image), run.last("cache info"), lit ? run.last(light) : none,
                      run["support image"], catch_up ? run["history correction"] : none,
-                     run["sampled colour"], run["surface depth"], lit ? run["sampled light"] : none,
-                     run[kit.image], run["cache info"], lit ? run[light] : none,
-                     run["reprojected colour"])
+                     kit.moved() != 0 ? run["support change"] : none, run["sampled colour"],
+                     run["surface depth"], lit ? run["sampled light"] : none, run[kit.image],
+                     run["cache info"], lit ? run[light] : none, run["reprojected colour"])
                 .launch(name, {compute::Range::cover(merge_items(kit.kit), group)}, {group});
         };
     };

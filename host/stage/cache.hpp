@@ -7,9 +7,15 @@ namespace macula::stage {
 
 // The parts of the list that lie on the support grid -> "support image" (float4: linear RGB
 // radiance) and "support geometry" (float4: geometric normal, depth), one entry a support sample.
+// Where something can move "support triangle", too (uint: the scene-wide id).
+frame::Stage extract_support(const FoveatedKit& kit);
+
 // "history correction": what the support samples agree that the history lags behind.
 frame::Stage measure_lag(const FoveatedKit& kit);
-frame::Stage extract_support(const FoveatedKit& kit);
+
+// "support change": MACULA_CHANGE_* of the support samples, what they show that their history does
+// not although it moved with its object; none where nothing moved. `noisy`: the light is.
+frame::Stage find_change(const FoveatedKit& kit, bool noisy);
 
 // The list's samples, last frame's image and the support image -> this frame's image (`kit.image`),
 // "cache info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the light buffer `light`

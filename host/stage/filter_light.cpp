@@ -14,6 +14,8 @@ frame::Stage filter_light(const FoveatedKit& kit, const std::string& light,
     stage.name = "post-process: light of neighbours";
     stage.reads = {"mesh vertices", "pixel keys",    "history kept", "ray count",
                    "pixel of slot", "surface depth", light};
+    if (kit.can_move())
+        stage.reads.push_back("resampling info");
     stage.reads_last = {buffer};
     stage.writes = {per_slot(kit.kit, "filtered light", light_bytes)};
     stage.prepare = [kit, light, buffer, light_bytes, name = stage.name] {
@@ -23,11 +25,13 @@ frame::Stage filter_light(const FoveatedKit& kit, const std::string& light,
         auto kernel = kit.kit.library.kernel(key, "filter_light", kit.kit.device);
         return [kit, light, buffer, name, kernel](frame::Run& run) mutable {
             const SupportGrid& grid = *kit.grid;
+            const compute::Buffer none;
             kernel
                 .set(run.params_buffer(), grid.params_buffer, run.sample(), grid.mesh_columns,
                      grid.mesh_rows, run["mesh vertices"], run["pixel keys"], run["history kept"],
-                     run.last(buffer), run["ray count"], run["pixel of slot"], run["surface depth"],
-                     run[light], run["filtered light"])
+                     kit.can_move() ? run["resampling info"] : none, run.last(buffer),
+                     run["ray count"], run["pixel of slot"], run["surface depth"], run[light],
+                     run["filtered light"])
                 .launch(name, {kit.packets()}, {kListGroup});
         };
     };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "host/stage/instance_motions.hpp"
 #include "host/stage/kit.hpp"
 #include "shared/weier.h"
 
@@ -70,6 +71,12 @@ struct FoveatedKit {
     Kit kit;
     std::shared_ptr<SupportGrid> grid;
     std::string image = "colour"; // the resource that is shown and kept as history
+    // Null where the scene is one mesh that cannot move.
+    std::shared_ptr<InstanceMotions> motions = {};
+
+    bool can_move() const { return motions != nullptr; }
+    // Instances that moved since the last frame.
+    std::uint32_t moved() const { return motions ? motions->moved() : 0; }
 
     std::uint32_t packets() const { return kit.slots() / MACULA_RAY_BLOCK; }
     frame::Resource per_support(const std::string& name, std::uint32_t element_bytes) const {

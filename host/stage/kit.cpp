@@ -1,5 +1,7 @@
 #include "host/stage/kit.hpp"
 
+#include <algorithm>
+
 #include "lib/camera.h"
 
 namespace macula::stage {
@@ -7,6 +9,14 @@ namespace macula::stage {
 std::uint32_t Kit::slots() const {
     const std::uint32_t of_pixels = shared::slot_count(width, height);
     return primary() ? of_pixels : kRaysOfHit * of_pixels;
+}
+
+std::uint32_t Kit::launched() const {
+    if (!used_slots)
+        return slots();
+    const std::uint32_t doublings = std::min(level + (of_layers ? 1 : 0), 2u);
+    return static_cast<std::uint32_t>(
+        std::min(std::uint64_t{*used_slots} << doublings, std::uint64_t{slots()}));
 }
 
 Kit Kit::at_level(std::uint32_t of_rays) const {
@@ -34,7 +44,8 @@ Kit Kit::at_layers() const {
             level,
             layers,
             blended,
-            true};
+            true,
+            used_slots};
 }
 
 std::string Kit::named(const std::string& what) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ struct Kit {
     // For the list of the blended layers that lie before the hits of this level's rays.
     bool of_layers = false;
 
+    // Of methods that know on the host how long a frame's list of primary rays can get: at most so
+    // many slots, a multiple of kGroup. None: all of them.
+    std::shared_ptr<const std::uint32_t> used_slots = {};
+
     Kit at_level(std::uint32_t of_rays) const;
     // For the list of the blended layers: geometry and surfaces are theirs, rays meet the others.
     Kit at_layers() const;
@@ -56,6 +61,9 @@ struct Kit {
     // Of the level's list: as many as the order of lib/camera.h has (a multiple of 1024); twice
     // that for secondary rays.
     std::uint32_t slots() const;
+    // Slots that this frame's launches cover: slots(), or fewer where used_slots says so. A level's
+    // list then has room for twice the rays of the level before it, four times the primary rays.
+    std::uint32_t launched() const;
     std::uint64_t pixels() const { return std::uint64_t{width} * height; }
     std::uint32_t picture_width() const { return target_width != 0 ? target_width : width; }
     std::uint32_t picture_height() const { return target_height != 0 ? target_height : height; }

@@ -41,7 +41,7 @@ class CollectLayers {
         compute::Buffer& histogram = run.scratch("layer histogram");
         histogram.fill(0);
         // Most rays meet none, which packets find out sooner.
-        tracer_.any(class_of_rays, run[kit_.rays()], of("ray count"), kit_.slots(),
+        tracer_.any(class_of_rays, run[kit_.rays()], of("ray count"), kit_.launched(),
                     run.scratch("rays that meet layers"), kit_.named("find layers"));
         frame::DeviceGeometry& geometry = kit_.blended->geometry;
         const frame::DeviceSurfaces& scene = kit_.blended->surfaces;
@@ -53,15 +53,15 @@ class CollectLayers {
                  of("ray count"), of("hits"), spreads, of("throughput"), of("origin"),
                  run.scratch("rays that meet layers"), kit_.layers, layers, ids,
                  run.scratch("layer counts"), run.scratch("layer remainders"), histogram)
-            .launch(kit_.named("collect layers"), {kit_.slots()}, {kGroup});
+            .launch(kit_.named("collect layers"), {kit_.launched()}, {kGroup});
         weigh_
-            .set(of("ray count"), histogram, kit_.layers, list_.slots(),
+            .set(of("ray count"), histogram, kit_.layers, list_.launched(),
                  run.scratch("layer counts"), run.scratch("layer remainders"), layers,
                  run.scratch("layer flags"), run.scratch("layer flag count"), run[through_of(kit_)])
-            .launch(kit_.named("weigh layers"), {kit_.slots()}, {kGroup});
+            .launch(kit_.named("weigh layers"), {kit_.launched()}, {kGroup});
         compaction_.run(run.scratch("layer flags"), run.scratch("layer flag count"),
                         run.scratch("layer queue"), run.scratch("layer queue count"),
-                        kit_.named("queue layers"));
+                        kit_.named("queue layers"), std::uint64_t{kit_.layers} * kit_.launched());
         entries_
             .set(run.params_buffer(), run.scratch("layer queue"), run.scratch("layer queue count"),
                  run[kit_.rays()], of("pixel of slot"), spreads, of("root"), of("throughput"),
@@ -69,7 +69,7 @@ class CollectLayers {
                  run[list_.named("hits")], run[list_.named("pixel of slot")],
                  run[list_.named("root")], run[list_.named("throughput")],
                  run[list_.named("origin")], run[list_.named("ray count")])
-            .launch(kit_.named("list layers"), {list_.slots()}, {kGroup});
+            .launch(kit_.named("list layers"), {list_.launched()}, {kGroup});
     }
 
   private:
@@ -140,7 +140,7 @@ frame::Stage add_layers(const Kit& kit, const std::string& total) {
                 .set(run[list.named("ray count")], run[list.named("root")],
                      run[list.named("throughput")], run[list.named("surface colour")],
                      through.empty() ? compute::Buffer() : run[through], run[sum])
-                .launch(name, {list.slots()}, {kGroup});
+                .launch(name, {list.launched()}, {kGroup});
         };
     };
     return stage;

@@ -49,11 +49,11 @@ class DirectLight {
                  run[kit_.named("surface position")], run[kit_.named("surface geometric normal")],
                  lights_, light, run.scratch("queue flags"), run[kit_.named("surface irradiance")],
                  run[kit_.named("surface highlight")])
-            .launch(kit_.named("flag lit surfaces"), kit_.lane_items(kit_.slots()),
+            .launch(kit_.named("flag lit surfaces"), kit_.lane_items(kit_.launched()),
                     kit_.lane_group());
         compaction_.run(run.scratch("queue flags"), run[kit_.named("ray count")],
                         run.scratch("queue"), run.scratch("queue count"),
-                        kit_.named("queue lit surfaces"));
+                        kit_.named("queue lit surfaces"), kit_.launched());
         const std::uint32_t samples = kit_.lights[light].samples;
         const std::uint32_t entries = batch_entries(kit_, samples);
         for_each_batch(kit_, entries, [&](std::uint32_t first) {

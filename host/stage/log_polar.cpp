@@ -40,6 +40,17 @@ frame::Resource mask_of_packets(const LogPolarKit& kit, const char* name) {
     return {name, 4, kit.packets()};
 }
 
+// What a table of the buffer's columns and rows is for (kernels/generate/log_polar.cl).
+constexpr std::uint32_t kOfMiddles = 0, kOfRays = 1;
+
+std::uint32_t axis_entries(const LogPolarKit& kit) {
+    return kit.buffer->params().width + kit.buffer->params().height;
+}
+
+compute::Range axis_range(const LogPolarKit& kit) {
+    return {compute::Range::cover(axis_entries(kit), kGroup)};
+}
+
 } // namespace
 
 const char* name(LodRule rule) {
@@ -115,8 +126,11 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
                     mask_of_packets(kit, "list offsets"),
                     {"list length", 4, 1},
                     {"log-polar colour", 16, kit.buffer->texels()}};
+    stage.scratch = {{"texel axes", 16, axis_entries(kit)}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
+        auto tabulate =
+            kit.kit.library.kernel(kit.program(kGenerate), "tabulate_texels", kit.kit.device);
         auto choose =
             kit.kit.library.kernel(kit.program(kGenerate), "choose_samples", kit.kit.device);
         auto sum =
@@ -124,11 +138,16 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
         const std::uint32_t packets = kit.packets();
         const compute::Buffer count =
             kit.kit.device.upload(std::span(&packets, 1), "number of packets");
-        return [kit, name, choose, sum, count](frame::Run& run) mutable {
+        return [=](frame::Run& run) mutable {
+            compute::Buffer& axes = run.scratch("texel axes");
+            tabulate
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"], 0u, kOfMiddles,
+                     axes, run["log-polar colour"])
+                .launch(name, axis_range(kit), {kGroup});
             // The counts become their own offsets.
             choose
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
-                     kit.disk_packets(), run["sampling masks"], run["list offsets"],
+                     kit.disk_packets(), axes, run["sampling masks"], run["list offsets"],
                      run["log-polar colour"])
                 .launch(name, {kit.packets()}, {kGroup});
             sum->exclusive(run["list offsets"], count, run["list offsets"], run["list length"],
@@ -141,23 +160,32 @@ frame::Stage choose_samples(const LogPolarKit& kit) {
 frame::Stage log_polar_rays(const LogPolarKit& kit) {
     frame::Stage stage;
     stage.name = "generate log-polar rays";
-    stage.reads = {"fovea", "sampling masks", "list offsets", "list length"};
+    stage.reads = {"fovea", "sampling masks", "list offsets", "list length", "log-polar colour"};
     stage.writes = {
         {"primary rays", sizeof(shared::RayBlock), kit.disk_packets()},
         per_slot(kit.kit, "pixel of slot", 4),
         per_slot(kit.kit, "spread of slot", 4),
         {"ray count", 4, 1},
     };
+    stage.scratch = {{"texel axes", 16, axis_entries(kit)}};
     stage.prepare = [kit, name = stage.name] {
+        auto tabulate =
+            kit.kit.library.kernel(kit.program(kGenerate), "tabulate_texels", kit.kit.device);
         auto kernel = kit.kit.library.kernel(kit.program(kGenerate), "generate_log_polar_rays",
                                              kit.kit.device);
-        return [kit, name, kernel](frame::Run& run) mutable {
+        return [=](frame::Run& run) mutable {
+            compute::Buffer& axes = run.scratch("texel axes");
+            tabulate
+                .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"], run.sample(),
+                     kOfRays, axes, run["log-polar colour"])
+                .launch(name, axis_range(kit), {kGroup});
             kernel
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
-                     kit.disk_packets(), run.sample(), run["sampling masks"], run["list offsets"],
-                     run["list length"], run["primary rays"], run["pixel of slot"],
-                     run["spread of slot"], run["ray count"], kit.kit.ray_totals,
-                     static_cast<std::uint32_t>(kernel::RayClass::sparse))
+                     kit.disk_packets(), run.sample(), axes, run["sampling masks"],
+                     run["list offsets"], run["list length"], run["primary rays"],
+                     run["pixel of slot"], run["spread of slot"], run["ray count"],
+                     kit.kit.ray_totals, static_cast<std::uint32_t>(kernel::RayClass::sparse),
+                     run["log-polar colour"])
                 .launch(name, {kit.packets()}, {kGroup});
         };
     };

@@ -20,7 +20,7 @@ frame::Stage primary_rays(const Kit& kit) {
                 .set(run.params_buffer(), run.sample(), run["primary rays"], run["pixel of slot"],
                      run["ray count"], kit.ray_totals,
                      static_cast<std::uint32_t>(kernel::RayClass::primary))
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;
@@ -33,7 +33,7 @@ frame::Stage trace_primary_rays(const Kit& kit, kernel::RayClass ray_class) {
     stage.writes = {{"hits", sizeof(shared::HitBlock), kit.slots() / MACULA_RAY_BLOCK}};
     stage.prepare = [kit, ray_class, name = stage.name] {
         return [kit, ray_class, name](frame::Run& run) {
-            kit.tracer.closest(ray_class, run["primary rays"], run["ray count"], kit.slots(),
+            kit.tracer.closest(ray_class, run["primary rays"], run["ray count"], kit.launched(),
                                run["hits"], name);
         };
     };

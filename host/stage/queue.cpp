@@ -6,14 +6,22 @@
 
 namespace macula::stage {
 
-std::uint32_t batch_entries(const Kit& kit, std::uint32_t samples) {
+namespace {
+
+std::uint32_t fitting_entries(std::uint32_t samples) {
     constexpr auto group = static_cast<std::uint32_t>(kGroup);
-    const std::uint32_t fitting = std::max(kBatchRays / samples / group, 1u) * group;
-    return std::min(fitting, kit.slots());
+    return std::max(kBatchRays / samples / group, 1u) * group;
+}
+
+} // namespace
+
+std::uint32_t batch_entries(const Kit& kit, std::uint32_t samples) {
+    return std::min(fitting_entries(samples), kit.launched());
 }
 
 std::vector<frame::Resource> queue_scratch(const Kit& kit, std::uint32_t samples) {
-    const std::uint64_t rays = std::uint64_t{batch_entries(kit, samples)} * samples;
+    const std::uint64_t rays =
+        std::uint64_t{std::min(fitting_entries(samples), kit.slots())} * samples;
     return {
         per_slot(kit, "queue flags", 4),
         per_slot(kit, "queue", 4),
@@ -26,7 +34,7 @@ std::vector<frame::Resource> queue_scratch(const Kit& kit, std::uint32_t samples
 
 void for_each_batch(const Kit& kit, std::uint32_t entries,
                     const std::function<void(std::uint32_t first)>& batch) {
-    for (std::uint32_t first = 0; first < kit.slots(); first += entries)
+    for (std::uint32_t first = 0; first < kit.launched(); first += entries)
         batch(first);
 }
 

@@ -14,7 +14,8 @@ namespace macula::stage {
 // one stretch of the image, so that its rays find the scene's nodes in the cache.
 inline constexpr std::uint32_t kBatchRays = 1u << 20;
 
-// Entries of a batch whose entries have `samples` rays each: a multiple of 64, at most the slots.
+// Entries of a batch whose entries have `samples` rays each: a multiple of 64, at most
+// the slots that this frame's launches cover.
 std::uint32_t batch_entries(const Kit& kit, std::uint32_t samples);
 
 // "queue flags", "queue", "queue count", "queued rays", "queued ray count" and "occluded", shared

@@ -30,16 +30,26 @@ frame::Stage project_mesh(const FoveatedKit& kit) {
     stage.name = "project the support mesh";
     stage.reads_last = {"support geometry"};
     stage.writes = {kit.per_support("mesh vertices", 16)};
+    if (kit.can_move()) {
+        stage.reads_last.push_back("support triangle");
+        stage.writes.push_back(kit.per_support("support motion", 4));
+    }
     stage.prepare = [kit, name = stage.name] {
         kit.grid->prepare(kit.kit);
         auto project = kit.kit.library.kernel(kernel::VariantKey("reproject/mesh"), "project_mesh",
                                               kit.kit.device);
         return [kit, name, project](frame::Run& run) mutable {
             const SupportGrid& grid = *kit.grid;
+            const bool any = kit.can_move();
+            if (any)
+                kit.motions->update(kit.kit);
+            const compute::Buffer none;
             project
                 .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
-                     grid.mesh_columns, grid.mesh_rows, run.last("support geometry"),
-                     run["mesh vertices"])
+                     grid.mesh_columns, grid.mesh_rows, run.last("support geometry"), kit.moved(),
+                     any ? kit.motions->instances() : 0u, any ? kit.motions->table : none,
+                     any ? kit.motions->matrices : none, any ? run.last("support triangle") : none,
+                     any ? run["support motion"] : none, run["mesh vertices"])
                 .launch(name, {compute::Range::cover(blocks(kit), kRowGroup)}, {kRowGroup});
         };
     };
@@ -51,6 +61,10 @@ frame::Stage draw_mesh(const FoveatedKit& kit) {
     stage.name = "detect errors and draw the mesh";
     stage.reads = {"mesh vertices"};
     stage.reads_last = {"support geometry", "support image"};
+    if (kit.can_move()) {
+        stage.reads.push_back("support motion");
+        stage.reads_last.push_back("support change");
+    }
     const std::uint64_t pitch = kit.grid->params().pitch;
     stage.writes = {kit.per_support("resampling info", 4),
                     per_cell(kit, "mesh cells", MACULA_CELL_FIELDS),
@@ -72,9 +86,13 @@ frame::Stage draw_mesh(const FoveatedKit& kit) {
         const std::uint64_t tiles = (pitch + wide - 1) / wide * (key_rows(kit) / MACULA_DRAWN_TILE);
         return [kit, tiles, name, prepare, draw](frame::Run& run) mutable {
             const SupportGrid& grid = *kit.grid;
+            const bool any = kit.can_move();
+            const compute::Buffer none;
             prepare
                 .set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
                      run.last("support geometry"), run.last("support image"), run["mesh vertices"],
+                     kit.moved(), any ? kit.motions->matrices : none,
+                     any ? run["support motion"] : none, any ? run.last("support change") : none,
                      run["resampling info"], run["mesh cells"], run.scratch("cell outlines"),
                      run.scratch("second outlines"), run.scratch("cell bounds"))
                 .launch(name, {compute::Range::cover(blocks(kit), kRowGroup)}, {kRowGroup});

@@ -6,7 +6,9 @@
 
 namespace macula::stage {
 
-// Last frame's "support geometry" -> "mesh vertices" (kernels/lib/reprojection.h).
+// Last frame's "support geometry" -> "mesh vertices" (kernels/lib/reprojection.h), moved with their
+// objects; "support motion" (uint a support sample: the motion's number,
+// kernels/reproject/motion.h) where something can move.
 frame::Stage project_mesh(const FoveatedKit& kit);
 
 // Marks the mesh cells that need new samples and draws the mesh at full resolution: "resampling

@@ -36,12 +36,13 @@ class SecondaryRays {
                  last("surface material"), last("surface geometric normal"),
                  last("surface shading normal"), last("throughput"), last("light through layers"),
                  kit_.surfaces.optics, flags, flag_count, histogram)
-            .launch(kit_.named("flag rays"), kit_.lane_items(last_.slots()), kit_.lane_group());
-        limit_.set(flag_count, histogram, kit_.slots(), flags)
-            .launch(kit_.named("limit rays"), kit_.lane_items(kRaysOfHit * last_.slots()),
+            .launch(kit_.named("flag rays"), kit_.lane_items(last_.launched()), kit_.lane_group());
+        limit_.set(flag_count, histogram, kit_.launched(), flags)
+            .launch(kit_.named("limit rays"), kit_.lane_items(kRaysOfHit * last_.launched()),
                     kit_.lane_group());
         compaction_.run(flags, flag_count, run.scratch("secondary queue"),
-                        run.scratch("secondary queue count"), kit_.named("queue rays"));
+                        run.scratch("secondary queue count"), kit_.named("queue rays"),
+                        std::uint64_t{kRaysOfHit} * last_.launched());
         const compute::Buffer none;
         const bool first = last_.level == 0;
         generate_
@@ -54,7 +55,8 @@ class SecondaryRays {
                  kit_.surfaces.optics, next("rays"), next("pixel of slot"), next("root"),
                  next("throughput"), next("origin"), next("ray count"), kit_.ray_totals,
                  static_cast<std::uint32_t>(kernel::RayClass::diffuse))
-            .launch(kit_.named("generate rays"), kit_.lane_items(kit_.slots()), kit_.lane_group());
+            .launch(kit_.named("generate rays"), kit_.lane_items(kit_.launched()),
+                    kit_.lane_group());
     }
 
   private:
@@ -110,7 +112,7 @@ frame::Stage trace_secondary_rays(const Kit& kit) {
     stage.prepare = [kit, name = stage.name] {
         return [kit, name](frame::Run& run) {
             kit.tracer.closest(kernel::RayClass::diffuse, run[kit.named("rays")],
-                               run[kit.named("ray count")], kit.slots(), run[kit.named("hits")],
+                               run[kit.named("ray count")], kit.launched(), run[kit.named("hits")],
                                name);
         };
     };
@@ -134,7 +136,7 @@ frame::Stage add_secondary_light(const Kit& kit, const std::string& total) {
                 .set(run[kit.named("ray count")], run[kit.named("root")],
                      run[kit.named("throughput")], run[kit.named("light through layers")],
                      run[kit.named("surface colour")], run[sum])
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;

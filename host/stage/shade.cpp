@@ -15,7 +15,7 @@ frame::Stage average(const Kit& kit, const std::string& from, const std::string&
             kernel
                 .set(run.params_buffer(), run.sample(), run["ray count"], run["pixel of slot"],
                      run[from], run[image])
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;
@@ -54,7 +54,7 @@ frame::Stage shade(const Kit& kit, bool direct_light, bool ambient_occlusion,
                      direct_light ? run[irradiance] : none, of("surface highlight", highlights),
                      ambient_occlusion ? run[openness] : none, of("surface material", optics),
                      optics ? kit.surfaces.optics : none, of("surface colour"))
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;
@@ -82,7 +82,7 @@ frame::Stage average_listed(const Kit& kit, const std::string& from, const std::
             kernel
                 .set(run.params_buffer(), run.sample(), element_bytes / 4, run["ray count"],
                      run[from], run[mean])
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;
@@ -103,7 +103,7 @@ frame::Stage keep_first_sample(const Kit& kit, const std::string& from, const st
             kernel
                 .set(element_bytes / 4, run["ray count"], run["pixel of slot"], run[from],
                      run[image])
-                .launch(name, {kit.slots()}, {kGroup});
+                .launch(name, {kit.launched()}, {kGroup});
         };
     };
     return stage;

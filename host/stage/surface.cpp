@@ -40,7 +40,7 @@ frame::Stage resolve_surface(const Kit& kit, const std::string& spreads) {
                      of("surface geometric normal"), of("surface shading normal"),
                      of("surface albedo"), of("surface specular"), of("surface emission"),
                      of("surface triangle"), of("surface material"), of("surface motion"))
-                .launch(name, kit.lane_items(kit.slots()), kit.lane_group());
+                .launch(name, kit.lane_items(kit.launched()), kit.lane_group());
         };
     };
     return stage;

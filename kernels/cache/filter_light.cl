@@ -188,14 +188,32 @@ static inline bool is_noise(LightValue here, LightValue there) {
     return is_lit(there) && fabs(a - b) <= MOST_NOISE * m_max(a, b);
 }
 
+/* Lanes of `bits` whose neighbours' light is not that of another time: something moved there. */
+static inline uint unchanged_lanes(global const WeierParams* weier, global const uint* errors,
+                                   uint16 key, uint bits) {
+    uint keys[16], kept = 0u;
+    vstore16(key, 0, keys);
+    for (uint lanes = bits; lanes != 0u; lanes &= lanes - 1u) {
+        const uint k = keys[first_lane(lanes)], cell = cell_of_key(k, weier);
+        const uint i = cell & ((1u << weier->cell_bits_x) - 1u), j = cell >> weier->cell_bits_x;
+        const bool changed =
+            k != MACULA_NO_KEY &&
+            (errors[j * weier->support_width + i] & MACULA_RESAMPLE_CHANGED) != 0u;
+        kept |= changed ? 0u : lanes & -lanes;
+    }
+    return kept;
+}
+
 /* One work-item sixteen slots of the list. All of them search before the first light is read, so
- * that they wait for memory together. */
+ * that they wait for memory together. errors: the resampling info, null where nothing ever moves.
+ */
 kernel void
 filter_light(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
              uint sample, global const float* restrict mesh_columns,
              global const float* restrict mesh_rows, global const float4* restrict vertices,
              global const uint* restrict keys, global const uint* restrict history_kept,
-             global const LightValue* restrict past_light, global const uint* restrict ray_count,
+             global const uint* restrict errors, global const LightValue* restrict past_light,
+             global const uint* restrict ray_count,
              global const uint* restrict pixels, global const float* restrict depth,
              global const LightValue* restrict light, global LightValue* restrict filtered) {
     const uint first = (uint)get_global_id(0) * 16u;
@@ -222,6 +240,8 @@ filter_light(global const FrameParams* restrict frame, global const WeierParams*
     if (seeking == 0u)
         return;
     seeking &= bits_of_lanes16(outside_fovea(frame, weier, x, y));
+    if (errors)
+        seeking = unchanged_lanes(weier, errors, key, seeking);
 
     const Search s = {frame, weier, keys, past_light, {vertices, mesh_columns, mesh_rows}};
     int column[16], row[16], texel[16];

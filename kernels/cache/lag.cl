@@ -5,8 +5,8 @@
 #include "lib/reprojection.h"
 
 /* lag[i]: the fresh support sample i minus its reprojected history; w: what that looks like
- * (look_of). 0 where there is none, and where the view stands still upon it. One work-item a
- * support sample. */
+ * (look_of). 0 where there is none, and where the view stands still upon it; `moved`: 0 where all
+ * else stands still, too. One work-item a support sample. */
 kernel void
 measure_lag(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict columns, global const float* restrict rows,
@@ -14,7 +14,8 @@ measure_lag(global const FrameParams* restrict frame, global const WeierParams* 
             global const float4* restrict vertices, global const uint* restrict keys,
             global const uint* restrict history_kept, global const float4* restrict past_colour,
             global const float4* restrict support_image,
-            global const float4* restrict support_geometry, global float4* restrict lag) {
+            global const float4* restrict support_geometry, uint moved,
+            global float4* restrict lag) {
     const uint index = (uint)get_global_id(0);
     const uint across = weier->support_width, row = index / across;
     if (row >= weier->support_height)
@@ -29,7 +30,8 @@ measure_lag(global const FrameParams* restrict frame, global const WeierParams* 
     const float apart = fabs(fma(support_geometry[index].w, h.inverse_depth, -1.0f));
     const Footing f = footing_at(
         clamp(h.at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height)));
-    if (!h.found || apart > weier->merge_threshold || (f.to_x == 0.0f && f.to_y == 0.0f))
+    const bool still = moved == 0u && f.to_x == 0.0f && f.to_y == 0.0f;
+    if (!h.found || apart > weier->merge_threshold || still)
         return;
     const float4 past = bilinear4(past_colour, frame->width, frame->height, &f);
     const float4 difference = support_image[index] - past;

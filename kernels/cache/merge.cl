@@ -263,9 +263,23 @@ MACULA_ALWAYS_INLINE uint keep_histories(const Packet* p, const Mesh* mesh, cons
     return kept;
 }
 
+/* Lanes of the packet whose nearest support sample hit another surface than its history is of. */
+MACULA_ALWAYS_INLINE uint contradicted_lanes(global const WeierParams* weier, const Steps* steps,
+                                             global const uint* change, uint x0, uint y0) {
+    const uint across = weier->support_width, down = weier->support_height;
+    uint bits = 0u;
+    for (uint lane = 0u; lane < 16u; ++lane) {
+        const int i = (int)fma((float)(x0 + (lane & 3u)), steps->x, 0.5f);
+        const int j = (int)fma((float)(y0 + (lane >> 2)), steps->y, 0.5f);
+        const uint found = change[texel_index(i, j, across, down)];
+        bits |= found == MACULA_CHANGE_OF_SURFACE ? 1u << lane : 0u;
+    }
+    return bits;
+}
+
 /* One work-item MACULA_PACKETS packets of sixteen pixels, side by side: what they read lies in a
- * few rows. `reprojected_colour` and `correction` may be null, and the light buffers where the
- * method has none. */
+ * few rows. `reprojected_colour` and `correction` may be null, `change` where nothing moved, and
+ * the light buffers where the method has none. */
 kernel void
 merge_cache(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
             global const float* restrict mesh_columns, global const float* restrict mesh_rows,
@@ -275,6 +289,7 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
             global const float4* restrict past_colour, global const uint2* restrict past_info,
             global const LightValue* restrict past_light,
             global const float4* restrict support_image, global const float4* restrict correction,
+            global const uint* restrict change,
             global const float4* restrict sampled_colour, global const float* restrict depth,
             global const LightValue* restrict sampled_light, global float4* restrict colour,
             global uint2* restrict info, global LightValue* restrict light,
@@ -307,7 +322,9 @@ merge_cache(global const FrameParams* restrict frame, global const WeierParams* 
         }
         const uint16 key = keys_of(keys + y0 * weier->pitch + x0, weier->pitch);
         /* Keys with the bit are to be resampled; MACULA_NO_KEY has it, too. */
-        const uint known = any_history ? rest & bits_of_lanes16((key & 1u) == 0u) : 0u;
+        uint known = any_history ? rest & bits_of_lanes16((key & 1u) == 0u) : 0u;
+        if (change && known != 0u)
+            known &= ~contradicted_lanes(weier, &steps, change, x0, y0);
         uint kept = 0u;
         float16 inverse_depth = (float16)(0.0f);
         if (known != 0u)

@@ -12,15 +12,16 @@ static inline uint on_grid(global const uint* cells, uint first) {
 
 /* One work-item a packet, so that the list is read in its order; all of the grid is in it.
  * `columns`, `rows`: from pixel to support sample, or MACULA_NO_CELL, as far as the tiles reach.
- * geometry: the geometric normal, w: the depth. */
+ * geometry: the geometric normal, w: the depth; triangles may be null. */
 kernel void extract_support(global const FrameParams* restrict frame,
                             global const WeierParams* restrict weier,
                             global const uint* restrict columns, global const uint* restrict rows,
                             global const uint* restrict masks, global const uint* restrict offsets,
                             global const float4* restrict sampled_colour,
                             global const float* restrict depth,
-                            global const float4* restrict normal, global float4* restrict image,
-                            global float4* restrict geometry) {
+                            global const float4* restrict normal,
+                            global const uint* restrict triangle, global float4* restrict image,
+                            global float4* restrict geometry, global uint* restrict triangles) {
     const uint packet = (uint)get_global_id(0);
     uint x0, y0;
     pixel_of_slot(packet * 16u, frame->width, &x0, &y0);
@@ -34,5 +35,7 @@ kernel void extract_support(global const FrameParams* restrict frame,
             const uint index = rows[y0 + y] * weier->support_width + columns[x0 + x];
             image[index] = sampled_colour[slot];
             geometry[index] = (float4)(normal[slot].xyz, depth[slot]);
+            if (triangles)
+                triangles[index] = triangle[slot];
         }
 }

@@ -68,25 +68,52 @@ static inline bool in_disk(global const FrameParams* frame, global const Fovea* 
     return x < frame->width && y < frame->height && distance_of(dx, dy) < fovea->radius;
 }
 
-/* Bit n: texel n of a packet of the buffer is sampled. The buffer begins empty. */
+/* One work-item a column or row, the columns first. axes: place_across() of the columns, then
+ * place_down() of the rows, at the middles of the texels or, for a frame's rays, where the sample
+ * of the regular grid lies in them. Rows of the buffer begin and end with an empty texel. */
+kernel void tabulate_texels(global const FrameParams* restrict frame,
+                            global const LogPolarParams* restrict params,
+                            global const Fovea* restrict fovea, uint sample, uint of_rays,
+                            global float4* restrict axes, global float4* restrict buffer) {
+    const uint item = (uint)get_global_id(0), columns = params->width;
+    if (item >= columns + params->height)
+        return;
+    const Texels texels = make_texels(frame, params, fovea);
+    float dx = 0.5f, dy = 0.5f;
+    if (of_rays != 0u)
+        sample_offset(frame, 0u, sample, frame->sample_grid, &dx, &dy);
+    if (item < columns) {
+        if (item >= first_needed(&texels))
+            axes[item] = place_across(&texels, (float)item + dx);
+        return;
+    }
+    const uint row = item - columns;
+    axes[item] = place_down(&texels, (float)row + dy);
+    if (of_rays == 0u)
+        buffer[row * params->pitch] = buffer[row * params->pitch + columns + 1u] = (float4)(0.0f);
+}
+
+/* Bit n: texel n of a packet of the buffer is sampled. Those that are read but not sampled are
+ * emptied. */
 static inline uint choose_texels(global const FrameParams* frame,
                                  global const LogPolarParams* params, global const Fovea* fovea,
-                                 uint packet, global float4* buffer) {
-    const uint width = params->width;
+                                 uint packet, global const float4* axes, global float4* buffer) {
+    const uint columns = params->width, rows = params->height;
     const Texels all = make_texels(frame, params, fovea);
+    const uint needed = first_needed(&all);
     uint column0, row0, bits = 0u;
-    pixel_of_slot(packet * MACULA_RAY_BLOCK, width, &column0, &row0);
+    pixel_of_slot(packet * MACULA_RAY_BLOCK, columns, &column0, &row0);
+    if (column0 + 4u <= needed || column0 >= columns || fovea->first_column >= columns)
+        return 0u;
     for (uint lane = 0u; lane < MACULA_RAY_BLOCK; ++lane) {
         const uint column = column0 + (lane & 3u), row = row0 + (lane >> 2);
-        if (column >= width || row >= params->height)
+        if (column >= columns || column < needed || row >= rows)
             continue;
-        global float4* texels = buffer + row * params->pitch;
-        if (column == 0u)
-            texels[0] = texels[width + 1u] = (float4)(0.0f);
-        const bool needed = is_read(&all, column, row);
-        if (needed || MACULA_RECTANGULAR)
-            texels[column + 1u] = (float4)(0.0f);
-        bits |= needed && reaches_image(&all, column, row) ? 1u << lane : 0u;
+        const float4 across = axes[column], down = axes[columns + row];
+        if (is_read(&all, across, down) && reaches_image(&all, across, down))
+            bits |= 1u << lane;
+        else
+            buffer[row * params->pitch + column + 1u] = (float4)(0.0f);
     }
     return bits;
 }
@@ -107,12 +134,13 @@ static inline uint choose_disk(global const FrameParams* frame, global const Fov
 kernel void choose_samples(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
                            global const Fovea* restrict fovea, uint disk_packets,
-                           global uint* restrict masks, global uint* restrict counts,
-                           global float4* restrict buffer) {
+                           global const float4* restrict axes, global uint* restrict masks,
+                           global uint* restrict counts, global float4* restrict buffer) {
     const uint packet = (uint)get_global_id(0);
     const uint bits = packet < disk_packets
                           ? choose_disk(frame, fovea, packet)
-                          : choose_texels(frame, params, fovea, packet - disk_packets, buffer);
+                          : choose_texels(frame, params, fovea, packet - disk_packets, axes,
+                                          buffer);
     masks[packet] = bits;
     counts[packet] = popcount(bits);
 }
@@ -124,62 +152,96 @@ typedef struct List {
     global float* spreads;
 } List;
 
+/* Where a ray goes through the image, and how wide its cone is there in pixels. */
+typedef struct Aim {
+    float x, y, spread;
+} Aim;
+
 static inline void add_ray(const List* list, global const FrameParams* frame, uint slot, uint place,
-                           float x, float y, float spread) {
-    const float3 direction = camera_direction(&frame->camera, frame->width, frame->height, x, y);
+                           Aim aim) {
+    const float3 direction =
+        camera_direction(&frame->camera, frame->width, frame->height, aim.x, aim.y);
     store_camera_ray(frame, list->rays, slot, direction, MACULA_BACKGROUND_DEPTH);
     list->places[slot] = place;
-    list->spreads[slot] = spread;
+    list->spreads[slot] = aim.spread;
 }
 
-/* One work-item a packet. places: the pixel's index for the disk, beyond them the texel's. A grid
- * of samples is one in the buffer, hence warped in the image (section 4.1.3). */
+static inline Aim aim_of_pixel(global const LogPolarParams* params, float x, float y) {
+    const Aim aim = {
+        x, y,
+        params->thesis_lod ? log_polar_thesis_spread(params, 0.0f) * params->spread_scale : 1.0f};
+    return aim;
+}
+
+static inline Aim aim_of_texel(const Texels* t, global const LogPolarParams* params, float4 across,
+                               float4 down) {
+    const Sample s = sample_at(t, across, down);
+    /* The side of a square of the texel's area. */
+    const float spread = params->thesis_lod
+                             ? log_polar_thesis_spread(params, lod_column(t, across, down))
+                             : m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f);
+    const Aim aim = {s.x, s.y, spread * params->spread_scale};
+    return aim;
+}
+
+static inline void end_list(const List* list, global const LogPolarParams* params, uint sum,
+                            global uint* ray_count, global ulong* ray_total) {
+    const uint total = min(sum, params->capacity);
+    pad_list(list->rays, list->places, total);
+    for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot)
+        list->spreads[slot] = 1.0f;
+    *ray_count = (total + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK * MACULA_RAY_BLOCK;
+    *ray_total += total;
+}
+
+/* One work-item a packet. axes: of this sample, by tabulate_texels(). places: the pixel's index for
+ * the disk, beyond them the texel's. A grid of samples is one in the buffer, hence warped in the
+ * image (section 4.1.3). Texels for which the list has no room are emptied. */
 kernel void generate_log_polar_rays(global const FrameParams* restrict frame,
                                     global const LogPolarParams* restrict params,
                                     global const Fovea* restrict fovea, uint disk_packets,
-                                    uint sample, global const uint* restrict masks,
+                                    uint sample, global const float4* restrict axes,
+                                    global const uint* restrict masks,
                                     global const uint* restrict offsets,
                                     global const uint* restrict sum, global RayBlock* restrict rays,
                                     global uint* restrict places, global float* restrict spreads,
                                     global uint* restrict ray_count,
-                                    global ulong* restrict ray_totals, uint ray_class) {
+                                    global ulong* restrict ray_totals, uint ray_class,
+                                    global float4* restrict buffer) {
     const uint packet = (uint)get_global_id(0);
-    const uint pixels = frame->width * frame->height;
     const List list = {rays, places, spreads};
-    const Texels texels = make_texels(frame, params, fovea);
-    if (packet == 0u) {
-        const uint total = min(*sum, params->capacity);
-        pad_list(rays, places, total);
-        for (uint slot = total; slot % MACULA_RAY_BLOCK != 0u; ++slot)
-            spreads[slot] = 1.0f;
-        *ray_count = (total + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK * MACULA_RAY_BLOCK;
-        ray_totals[ray_class] += total;
-    }
+    if (packet == 0u)
+        end_list(&list, params, *sum, ray_count, ray_totals + ray_class);
+    uint bits = masks[packet];
+    if (bits == 0u)
+        return;
+    const uint pixels = frame->width * frame->height;
     const bool disk = packet < disk_packets;
-    const uint across = disk ? frame->width : params->width;
+    const uint columns = disk ? frame->width : params->width;
+    const Texels texels = make_texels(frame, params, fovea);
     uint x0, y0, slot = offsets[packet];
-    pixel_of_slot((disk ? packet : packet - disk_packets) * MACULA_RAY_BLOCK, across, &x0, &y0);
-    for (uint bits = masks[packet]; bits != 0u && slot < params->capacity;
-         bits &= bits - 1u, ++slot) {
+    pixel_of_slot((disk ? packet : packet - disk_packets) * MACULA_RAY_BLOCK, columns, &x0, &y0);
+    for (; bits != 0u; bits &= bits - 1u, ++slot) {
         const uint lane = popcount((bits & -bits) - 1u);
         const uint column = x0 + (lane & 3u), row = y0 + (lane >> 2);
-        const uint place =
-            disk ? row * across + column : pixels + row * params->pitch + column + 1u;
-        float dx, dy, x, y, spread = 1.0f, bias_column = 0.0f;
+        const uint texel = row * params->pitch + column + 1u;
+        const uint place = disk ? row * columns + column : pixels + texel;
+        if (slot >= params->capacity) {
+            if (!disk)
+                buffer[texel] = (float4)(0.0f);
+            continue;
+        }
+        float dx, dy;
         sample_offset(frame, random_key(place, frame->frame, frame->seed), sample,
                       frame->sample_grid, &dx, &dy);
-        x = (float)column + dx;
-        y = (float)row + dy;
-        if (!disk) {
-            bias_column = lod_column(&texels, x, y);
-            const Sample s = sample_at(&texels, x, y);
-            x = s.x;
-            y = s.y;
-            /* The side of a square of the texel's area. */
-            spread = m_max(m_sqrt(s.texel.along * s.texel.around), 1.0f) * params->spread_scale;
-        }
-        if (params->thesis_lod != 0u)
-            spread = log_polar_thesis_spread(params, bias_column) * params->spread_scale;
-        add_ray(&list, frame, slot, place, x, y, spread);
+        const float x = (float)column + dx, y = (float)row + dy;
+        const bool known = frame->sample_grid > 0u;
+        Aim aim;
+        if (disk)
+            aim = aim_of_pixel(params, x, y);
+        else
+            aim = aim_of_texel(&texels, params, known ? axes[column] : place_across(&texels, x),
+                               known ? axes[columns + row] : place_down(&texels, y));
+        add_ray(&list, frame, slot, place, aim);
     }
 }

@@ -15,7 +15,6 @@ typedef struct Texels {
     global const LogPolarParams* params;
     global const Fovea* fovea;
     RectAxis across, down;
-    Span columns, rows; /* beyond them lies nothing of the disk */
 } Texels;
 
 static inline Span span_of_disk(const RectAxis* axis, float inverse_alpha, float gaze,
@@ -32,8 +31,6 @@ static inline Texels make_texels(global const FrameParams* frame,
     t.fovea = fovea;
     t.across = make_rect_axis(fovea->x, frame->width, params->width);
     t.down = make_rect_axis(fovea->y, frame->height, params->height);
-    t.columns = span_of_disk(&t.across, params->inverse_alpha, fovea->x, fovea->inner);
-    t.rows = span_of_disk(&t.down, params->inverse_alpha, fovea->y, fovea->inner);
     return t;
 }
 
@@ -59,36 +56,47 @@ static inline float fitting_radius(global const FrameParams* frame,
     return m_min(disk, pixels) + texels > pixels && radius > 0.0f ? 1e9f : radius;
 }
 
-static inline float furthest(const RectAxis* axis, float alpha, float gaze, uint texel) {
-    const float before = rect_place(axis, alpha, (float)texel - READ_FROM).place;
-    const float behind = rect_place(axis, alpha, (float)texel + 1.0f + READ_FROM).place;
-    return m_max(fabs(before - gaze), fabs(behind - gaze));
+/* Of a place along an axis in texels: where it lies and what a texel takes there, in pixels; how
+ * far from the gaze the furthest pixel is that is read from the texel around it; the part of the
+ * way to the buffer's end. */
+static inline float4 place_along(const RectAxis* axis, float alpha, float gaze, float texel) {
+    const RectPlace p = rect_place(axis, alpha, texel);
+    const float first = floor(texel);
+    const float before = rect_place(axis, alpha, first - READ_FROM).place;
+    const float behind = rect_place(axis, alpha, first + 1.0f + READ_FROM).place;
+    return (float4)(p.place, p.size, m_max(fabs(before - gaze), fabs(behind - gaze)),
+                    rect_part(axis, texel));
+}
+
+static inline float4 place_across(const Texels* t, float column) {
+    return place_along(&t->across, t->params->alpha, t->fovea->x, column);
+}
+
+static inline float4 place_down(const Texels* t, float row) {
+    return place_along(&t->down, t->params->alpha, t->fovea->y, row);
+}
+
+static inline Sample sample_at(const Texels* t, float4 across, float4 down) {
+    const Sample s = {across.x, down.x, {across.y, down.y}};
+    return s;
+}
+
+static inline uint first_needed(const Texels* t) {
+    return 0u;
 }
 
 /* False for texels that no pixel beyond the disk is read from: the furthest corner of what is read
  * from them lies within it. */
-static inline bool is_read(const Texels* t, uint column, uint row) {
-    const float x = (float)column, y = (float)row;
-    if (x + 1.0f < t->columns.first || x > t->columns.last || y + 1.0f < t->rows.first ||
-        y > t->rows.last)
-        return true;
-    return distance_of(furthest(&t->across, t->params->alpha, t->fovea->x, column),
-                       furthest(&t->down, t->params->alpha, t->fovea->y, row)) >= t->fovea->inner;
-}
-
-static inline Sample sample_at(const Texels* t, float column, float row) {
-    const RectPlace x = rect_place(&t->across, t->params->alpha, column);
-    const RectPlace y = rect_place(&t->down, t->params->alpha, row);
-    const Sample s = {x.place, y.place, {x.size, y.size}};
-    return s;
+static inline bool is_read(const Texels* t, float4 across, float4 down) {
+    return distance_of(across.z, down.z) >= t->fovea->inner;
 }
 
 /* All texels lie in the image. */
-static inline bool reaches_image(const Texels* t, uint column, uint row) {
+static inline bool reaches_image(const Texels* t, float4 across, float4 down) {
     return true;
 }
 
 /* The thesis's bias of texture levels goes by the part of the way to the buffer's nearer edge. */
-static inline float lod_column(const Texels* t, float column, float row) {
-    return m_max(rect_part(&t->across, column), rect_part(&t->down, row)) * (float)t->params->width;
+static inline float lod_column(const Texels* t, float4 across, float4 down) {
+    return m_max(across.w, down.w) * (float)t->params->width;
 }

@@ -28,4 +28,13 @@
 /* mask_slots[mesh_triangle + id]: index into mask_triangles, read only where MACULA_MASKED_BIT is
  * set. work_counter: one uint, 0 at launch, for variants that fetch work. */
 
+/* The first ray of a work-item that traces `per_item` rays of `count`, of a launch over the queue's
+ * capacity. Runtimes of CPUs hand out neighbouring work-items by the hundred: a short list must not
+ * all go to one core, so it is spread over the launch. */
+static inline uint first_of_spread(uint count, uint per_item) {
+    const uint id = (uint)get_global_id(0), items = (count + per_item - 1u) / per_item;
+    const uint apart = max((uint)get_global_size(0) / max(items, 1u), 1u);
+    return id % apart == 0u ? id / apart * per_item : count;
+}
+
 #endif

@@ -8,6 +8,7 @@ typedef struct Corners {
     Vector16 ray, normal; /* world space; the ray's depth is 1 */
     float16 inverse_depth, luminance;
     float16 along; /* normal . ray: below 0 */
+    uint16 motion; /* number of reproject/motion.h */
 } Corners;
 
 MACULA_ALWAYS_INLINE float16 luminances(const Quad16* colour) {
@@ -20,6 +21,7 @@ MACULA_ALWAYS_INLINE float16 luminances(const Quad16* colour) {
 typedef struct Samples {
     global const float4 *support, *image, *vertices;
     global const float *columns, *rows; /* of the mesh, pixels */
+    global const uint* motion;          /* null where nothing moved */
 } Samples;
 
 MACULA_ALWAYS_INLINE void load_corners(global const FrameParams* frame,
@@ -37,6 +39,9 @@ MACULA_ALWAYS_INLINE void load_corners(global const FrameParams* frame,
     c->inverse_depth = inverse_depths(geometry.w);
     c->luminance = luminances(&colour);
     c->along = dot3(c->normal, c->ray);
+    c->motion = (uint16)(0u);
+    if (from->motion)
+        c->motion = load_row_lanes(from->motion + j * across, (int)i, across);
 }
 
 /* How far `other` is from the plane of `corner`, as a part of the depth: along a plane the inverse
@@ -69,6 +74,33 @@ MACULA_ALWAYS_INLINE float16 length_ratio(const Quad16* a, const Quad16* b, floa
     return m_divide(m_sqrt(fma(x, x, y * y)), before);
 }
 
+/* Cells between objects that moved apart or together. */
+MACULA_ALWAYS_INLINE int16 moved_apart(const Corners* c) {
+    const uint16 a = c[0].motion;
+    return (c[1].motion != a) | (c[2].motion != a) | (c[3].motion != a);
+}
+
+/* Such cells and those next to them: a corner of an object reaches further than its samples. */
+MACULA_ALWAYS_INLINE int16 near_motion(global const uint* motion, uint i, uint j, uint across,
+                                       uint down) {
+    const uint16 here = load_row_lanes(motion + j * across, (int)i, across);
+    int16 differs = (int16)(0);
+    for (int y = (int)j - 1; y <= (int)j + 2; ++y)
+        for (int x = (int)i - 1; x <= (int)i + 2; ++x)
+            differs |= load_row_lanes(motion + (uint)clamp(y, 0, (int)down - 1) * across, x,
+                                      across) != here;
+    return differs;
+}
+
+/* Cells at a support sample that showed something else than its history did. */
+MACULA_ALWAYS_INLINE int16 near_change(global const uint* change, uint i, uint j, uint across) {
+    global const uint *above = change + j * across, *below = above + across;
+    const uint16 changed =
+        load_row_lanes(above, (int)i, across) | load_row_lanes(above, (int)i + 1, across) |
+        load_row_lanes(below, (int)i, across) | load_row_lanes(below, (int)i + 1, across);
+    return changed != 0u;
+}
+
 MACULA_ALWAYS_INLINE int16 flag_where(int16 mask, uint flag) {
     return mask & (int16)((int)flag);
 }
@@ -91,7 +123,8 @@ MACULA_ALWAYS_INLINE int16 errors_of(const Corners* c, float16 step_x, float ste
     const float edge = weier->edge_threshold;
     const int16 grazing = is_grazing(c, edge) | is_grazing(c + 1, edge) | is_grazing(c + 2, edge) |
                           is_grazing(c + 3, edge);
-    return flag_where(m_max(jump, across) > weier->depth_threshold, MACULA_RESAMPLE_DEPTH) |
+    const int16 torn = (m_max(jump, across) > weier->depth_threshold) | moved_apart(c);
+    return flag_where(torn, MACULA_RESAMPLE_DEPTH) |
            flag_where(bright - dark > weier->luminance_threshold, MACULA_RESAMPLE_LUMINANCE) |
            flag_where(stretch > weier->stretch_threshold, MACULA_RESAMPLE_STRETCHED) |
            flag_where(grazing, MACULA_RESAMPLE_GRAZING);
@@ -264,16 +297,19 @@ MACULA_ALWAYS_INLINE void put_bounds(global int* bounds, uint pitch, int16 drawn
     bounds[MACULA_BOUNDS_SECOND * pitch] = any_lane16(second) ? 1 : 0;
 }
 
-/* All corners moved to the depth of the nearest surface at one of them. */
+/* All corners moved to the depth of the nearest surface at one of them, and along with that. */
 MACULA_ALWAYS_INLINE void move_to_front(global const FrameParams* frame,
-                                        global const WeierParams* weier, const Corners* c,
-                                        Quad16* moved) {
+                                        global const WeierParams* weier, const Motions* motions,
+                                        const Corners* c, Quad16* moved) {
     const float16 front =
         greatest_of(c[0].inverse_depth, c[1].inverse_depth, c[2].inverse_depth, c[3].inverse_depth);
     const float16 far = fma(-0.5f, weier->depth_threshold, 1.0f) * front;
+    uint16 motion = c[3].motion;
+    for (uint k = 0u; k < 3u; ++k)
+        motion = c[k].inverse_depth == front ? c[k].motion : motion;
     for (uint k = 0u; k < 4u; ++k) {
-        const Quad16 v = project_vertices(frame, &c[k].ray, front);
-        const int16 behind = c[k].inverse_depth < far;
+        const Quad16 v = project_vertices(frame, motions, motion, &c[k].ray, front);
+        const int16 behind = (c[k].inverse_depth < far) | (c[k].motion != motion);
         moved[k].x = behind ? v.x : c[k].vertex.x;
         moved[k].y = behind ? v.y : c[k].vertex.y;
         moved[k].z = behind ? v.z : c[k].vertex.z;
@@ -282,10 +318,11 @@ MACULA_ALWAYS_INLINE void move_to_front(global const FrameParams* frame,
 
 /* The second drawing of the cells in `torn`. Returns which there are. */
 MACULA_ALWAYS_INLINE int16 put_fronts(global const FrameParams* frame,
-                                      global const WeierParams* weier, const Corners* c, int16 torn,
-                                      int16 place, global float* block, Bounds* bounds) {
+                                      global const WeierParams* weier, const Motions* motions,
+                                      const Corners* c, int16 torn, int16 place,
+                                      global float* block, Bounds* bounds) {
     Quad16 v[4];
-    move_to_front(frame, weier, c, v);
+    move_to_front(frame, weier, motions, c, v);
     const int16 wanted = torn & find_bounds(v, v + 1, v + 2, v + 3, frame, bounds);
     const Weights upper = weights_of(v, v + 1, v + 3), lower = weights_of(v, v + 2, v + 3);
     return put_outlines(block, wanted, place, v, v + 1, v + 2, v + 3, &upper, &lower, bounds);
@@ -298,12 +335,16 @@ MACULA_ALWAYS_INLINE int16 put_fronts(global const FrameParams* frame,
  * A cell across a silhouette is drawn twice, both times for new samples. As it is, behind all else,
  * it covers what the front surface no longer hides. With all its corners moved to the front
  * surface's depth (`fronts`) it covers the fringe between the last sample on that surface and its
- * edge, which the mesh would lose to whatever passes behind. */
+ * edge, which the mesh would lose to whatever passes behind. So are cells between objects that move
+ * differently. motion: of project_mesh; change: what cache/change.cl found in the last frame, null
+ * where nothing ever moves. */
 kernel void
 prepare_cells(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
               global const float* restrict mesh_columns, global const float* restrict mesh_rows,
               global const float4* restrict support, global const float4* restrict support_image,
-              global const float4* restrict vertices, global uint* restrict errors,
+              global const float4* restrict vertices, uint moved,
+              global const float* restrict matrices, global const uint* restrict motion,
+              global const uint* restrict change, global uint* restrict errors,
               global float* restrict cells, global float* restrict outlines,
               global float* restrict fronts, global int* restrict bounds) {
     const uint across = weier->support_width, down = weier->support_height;
@@ -317,7 +358,8 @@ prepare_cells(global const FrameParams* restrict frame, global const WeierParams
     int16 found = (int16)(0), drawn = (int16)(0), again = (int16)(0);
     first = second;
     if (j + 1u < down) {
-        const Samples from = {support, support_image, vertices, mesh_columns, mesh_rows};
+        const Samples from = {support,   support_image, vertices, mesh_columns,
+                              mesh_rows, moved != 0u ? motion : 0};
         Corners c[4];
         load_corners(frame, weier, &from, i, j, c);
         load_corners(frame, weier, &from, i + 1u, j, c + 1);
@@ -331,6 +373,11 @@ prepare_cells(global const FrameParams* restrict frame, global const WeierParams
             find_bounds(&c[0].vertex, &c[1].vertex, &c[2].vertex, &c[3].vertex, frame, &first) &
             (column < (int16)((int)across - 1));
         found = errors_of(c, step_x, step_y, weier);
+        if (moved != 0u)
+            found |=
+                flag_where(near_motion(motion, i, j, across, down), MACULA_RESAMPLE_CHANGED);
+        if (change)
+            found |= flag_where(near_change(change, i, j, across), MACULA_RESAMPLE_CHANGED);
         const int16 torn = drawable & ((found & (int16)MACULA_RESAMPLE_DEPTH) != 0);
         const int16 place =
             ((int16)((int)(j << weier->cell_bits_x)) | column) << 1 | ((found != 0) & 1);
@@ -341,8 +388,9 @@ prepare_cells(global const FrameParams* restrict frame, global const WeierParams
         drawn = put_outlines(outlines + block * (MACULA_OUTLINE_FIELDS * 16u), drawable,
                              place | (torn & (int16)((int)last)), &c[0].vertex, &c[1].vertex,
                              &c[2].vertex, &c[3].vertex, &upper, &lower, &first);
+        const Motions motions = {moved, 0u, 0, matrices};
         if (any_lane16(torn))
-            again = put_fronts(frame, weier, c, torn, place,
+            again = put_fronts(frame, weier, &motions, c, torn, place,
                                fronts + block * (MACULA_OUTLINE_FIELDS * 16u), &second);
         found = drawable ? found | (int16)MACULA_CELL_IN_VIEW : (int16)(0);
     }

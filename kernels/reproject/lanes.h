@@ -7,6 +7,7 @@
 #include "lib/mesh_cells.h"
 #include "lib/simd.h"
 #include "lib/vector16.h"
+#include "reproject/motion.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
 
@@ -43,6 +44,16 @@ MACULA_ALWAYS_INLINE Quad16 load_quads(global const float4* values, uint first, 
     return q;
 }
 
+/* The same for entries that need not exist: `first` may be -1. */
+MACULA_ALWAYS_INLINE uint16 load_row_lanes(global const uint* row, int first, uint count) {
+    if (first >= 0 && (uint)first + 16u <= count)
+        return vload16(0, row + first);
+    uint copy[16];
+    for (int lane = 0; lane < 16; ++lane)
+        copy[lane] = row[clamp(first + lane, 0, (int)count - 1)];
+    return vload16(0, copy);
+}
+
 /* Inverse depths of support samples, 0 where one is not a depth. */
 MACULA_ALWAYS_INLINE float16 inverse_depths(float16 depth) {
     const int16 valid = (depth > 0.0f) & (depth <= MACULA_BACKGROUND_DEPTH);
@@ -65,10 +76,11 @@ MACULA_ALWAYS_INLINE Vector16 past_rays(global const FrameParams* frame, float16
     return ray;
 }
 
-/* Vertices (lib/reprojection.h) on the rays of last frame's image, at inverse depths; z is -1 where
- * that depth is 0 or the vertex is not in front of the camera. */
-MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, const Vector16* ray,
-                                             float16 inverse) {
+/* Vertices (lib/reprojection.h) on the rays of last frame's image, at inverse depths, moved with
+ * their objects; z is -1 where that depth is 0 or the vertex is not in front of the camera. */
+MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame,
+                                             const Motions* motions, uint16 motion,
+                                             const Vector16* ray, float16 inverse) {
     global const Camera *past = &frame->previous_camera, *now = &frame->camera;
     const float16 depth = m_divide((float16)(1.0f), inverse > 0.0f ? inverse : (float16)(1.0f));
     const float3 moved = vector_at(past->origin) - vector_at(now->origin);
@@ -76,6 +88,9 @@ MACULA_ALWAYS_INLINE Quad16 project_vertices(global const FrameParams* frame, co
     view.x = fma(ray->x, depth, (float16)(moved.x));
     view.y = fma(ray->y, depth, (float16)(moved.y));
     view.z = fma(ray->z, depth, (float16)(moved.z));
+    if (motions->moved != 0u && any_lane16(motion != 0u))
+        move_views(motions, motion, ray, depth, vector_at(past->origin), vector_at(now->origin),
+                   &view);
     const float16 z = dot3(view, spread16(vector_at(now->forward)));
     const int16 seen = (inverse > 0.0f) & (z > 1e-20f);
     const float16 kept = seen ? z : (float16)(1.0f);

@@ -40,13 +40,29 @@ static inline float at_the_edge(global const WeierParams* weier, const Places* p
     return inverse;
 }
 
-/* One work-item sixteen support samples of a row. */
+/* The motion numbers of sixteen support samples, which are kept for the cells. */
+MACULA_ALWAYS_INLINE uint16 find_motions(const Motions* motions, global const uint* triangles,
+                                         uint first, uint lanes, global uint* numbers) {
+    uint found[16] = {0u};
+    for (uint lane = 0u; motions->moved != 0u && lane < lanes; ++lane) {
+        found[lane] = motion_of_triangle(motions, triangles[first + lane]);
+        numbers[first + lane] = found[lane];
+    }
+    return vload16(0, found);
+}
+
+/* One work-item sixteen support samples of a row. triangles: what they hit, and motion: the motion
+ * numbers of reproject/motion.h; where nothing moved, neither is touched. */
 kernel void project_mesh(global const FrameParams* restrict frame,
                          global const WeierParams* restrict weier,
                          global const float* restrict columns, global const float* restrict rows,
                          global const float* restrict mesh_columns,
                          global const float* restrict mesh_rows,
-                         global const float4* restrict support, global float4* restrict vertices) {
+                         global const float4* restrict support, uint moved, uint instance_count,
+                         global const InstanceMotion* restrict instances,
+                         global const float* restrict matrices,
+                         global const uint* restrict triangles, global uint* restrict motion,
+                         global float4* restrict vertices) {
     const uint across = weier->support_width, down = weier->support_height;
     const uint blocks = cell_blocks_across(across), block = (uint)get_global_id(0);
     const uint i = block % blocks * 16u, j = block / blocks;
@@ -61,7 +77,9 @@ kernel void project_mesh(global const FrameParams* restrict frame,
         if (edge_row || i + lane == 0u || i + lane + 1u == across)
             inverse[lane] = at_the_edge(weier, &places, support, i + lane, j);
     const Vector16 ray = past_rays(frame, load_lanes(mesh_columns, i, across), mesh_rows[j]);
-    const Quad16 v = project_vertices(frame, &ray, vload16(0, inverse));
+    const Motions motions = {moved, instance_count, instances, matrices};
+    const uint16 numbers = find_motions(&motions, triangles, first, lanes, motion);
+    const Quad16 v = project_vertices(frame, &motions, numbers, &ray, vload16(0, inverse));
     float x[16], y[16], z[16], w[16];
     vstore16(v.x, 0, x);
     vstore16(v.y, 0, y);

@@ -10,6 +10,8 @@
 #include "shared/log_polar.h"
 #include "shared/mask.h"
 #include "shared/ray.h"
+#include "shared/rings.h"
+#include "shared/rrm.h"
 #include "shared/surface.h"
 #include "shared/weier.h"
 
@@ -104,6 +106,17 @@
     MEMBER(LogPolarParams, thesis_lod)                                                             \
     STRUCT(Fovea)                                                                                  \
     MEMBER(Fovea, log_far)                                                                         \
-    MEMBER(Fovea, first_column)
+    MEMBER(Fovea, first_column)                                                                    \
+    STRUCT(RingParams)                                                                             \
+    MEMBER(RingParams, blur)                                                                       \
+    MEMBER(RingParams, grid)                                                                       \
+    STRUCT(Rings)                                                                                  \
+    MEMBER(Rings, top)                                                                             \
+    MEMBER(Rings, bottom)                                                                          \
+    STRUCT(RefreshRegion)                                                                          \
+    MEMBER(RefreshRegion, period)                                                                  \
+    STRUCT(RefreshPlan)                                                                            \
+    MEMBER(RefreshPlan, group_blocks)                                                              \
+    MEMBER(RefreshPlan, region)
 
 #endif

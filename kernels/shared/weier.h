@@ -13,8 +13,14 @@ MACULA_SHARED_BEGIN
 #define MACULA_RESAMPLE_GRAZING 4u   /* seen edge-on in the last frame */
 #define MACULA_RESAMPLE_STRETCHED 8u /* more pixels now than samples then */
 #define MACULA_RESAMPLE_NEW 16u      /* of a pixel: the last frame did not see it */
+#define MACULA_RESAMPLE_CHANGED 32u  /* something moved here, or changed what is seen here */
 /* Of a cell: some part of it lies in the new view. */
 #define MACULA_CELL_IN_VIEW 256u
+
+/* What a support sample shows that its history does not. */
+#define MACULA_CHANGE_NONE 0u
+#define MACULA_CHANGE_OF_LIGHT 1u
+#define MACULA_CHANGE_OF_SURFACE 2u
 
 /* A pixel that the mesh does not cover. */
 #define MACULA_NO_KEY 0xffffffffu
@@ -43,6 +49,13 @@ typedef struct WeierParams {
     float resampled_worth;                 /* part of rho that reading between texels leaves */
 } WeierParams;
 MACULA_ASSERT_SIZE(WeierParams, 96);
+
+/* An instance, in the order of their triangles' ids. */
+typedef struct InstanceMotion {
+    uint first_triangle; /* scene-wide id of its triangle 0 */
+    uint motion;         /* 0: it stands still; else its number among those that moved, from 1 on */
+} InstanceMotion;
+MACULA_ASSERT_SIZE(InstanceMotion, 8);
 
 MACULA_SHARED_END
 #endif

@@ -6,7 +6,7 @@
 #include "lib/packet_scene.h"
 
 kernel void trace(TRACE_ARGUMENTS) {
-    const uint first = (uint)get_global_id(0) * MACULA_RAY_BLOCK;
+    const uint first = first_of_spread(*ray_count, MACULA_RAY_BLOCK);
     if (first >= *ray_count)
         return;
     const TraceScene scene = MACULA_TRACE_SCENE;

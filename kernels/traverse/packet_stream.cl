@@ -34,8 +34,7 @@ static inline bool prepare_packet(const TraceScene* scene, global const RayBlock
 }
 
 kernel void trace(TRACE_ARGUMENTS) {
-    const uint first = (uint)get_global_id(0) * MACULA_RAYS_PER_ITEM;
-    const uint count = *ray_count;
+    const uint count = *ray_count, first = first_of_spread(count, MACULA_RAYS_PER_ITEM);
     if (first >= count)
         return;
     const TraceScene scene = MACULA_TRACE_SCENE;

@@ -60,7 +60,7 @@ static inline void sort_rays(global const RayBlock* blocks, uint count, QueuedRa
 }
 
 kernel void trace(TRACE_ARGUMENTS) {
-    const uint first = (uint)get_global_id(0) * MACULA_RAYS_PER_ITEM;
+    const uint first = first_of_spread(*ray_count, MACULA_RAYS_PER_ITEM);
     if (first >= *ray_count)
         return;
     const TraceScene scene = {nodes,

@@ -27,6 +27,8 @@ struct WeierSetup {
     float lowres_scale = 0.46f;
     stage::LogPolarOptions log_polar;
     method::TemporalOptions temporal;
+    stage::RingOptions rings;
+    stage::RrmOptions rrm;
     bool jitter = true; // where the method has it
     std::uint32_t samples_per_pixel = 1;
     frame::GeometryOptions geometry;
@@ -54,11 +56,11 @@ class WeierFrames {
           tracer_(device, library_, geometry_, stage::choose_variants(device)),
           lights_(frame::make_lights(scene, setup.lights, setup.samples)),
           totals_(device.upload(std::span(kNoRays), "ray counts")),
-          graph_(method_.make(
-              {device, library_, geometry_, surfaces_, tracer_, size_.width, size_.height, lights_,
-               occlusion() ? setup.samples : 0, false, totals_, 1, setup.width, setup.height,
-               setup.depth},
-              {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar, setup.temporal})) {
+          graph_(method_.make({device, library_, geometry_, surfaces_, tracer_, size_.width,
+                               size_.height, lights_, occlusion() ? setup.samples : 0, false,
+                               totals_, 1, setup.width, setup.height, setup.depth},
+                              {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
+                               setup.temporal, setup.rings, setup.rrm})) {
         std::set<std::string> outputs = setup.outputs;
         outputs.insert("colour");
         outputs.insert(method_.picture());

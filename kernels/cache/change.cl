@@ -1,0 +1,98 @@
+/* Where what moves changed what is seen: its shadow or its mirror image passes, or it was nowhere in
+ * the last frame, so that the history shows what is no longer so. The support samples tell, each
+ * frame and everywhere; the next frame samples the cells about them. */
+#include "lib/camera.h"
+#include "lib/reprojection.h"
+
+static inline float luminance_of(float4 colour) {
+    const float value = fma(colour.x, 0.2126f, fma(colour.y, 0.7152f, colour.z * 0.0722f));
+    return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
+}
+
+/* How much brighter `fresh` is than anything of the history about it, as a part of the larger of
+ * the two; below 0 where it is darker. Black is as bright as what nobody tells from it. */
+static inline float difference_from(global const float4* past, uint width, uint height,
+                                    const Footing* f, float fresh) {
+    const int right = f->to_x != 0.0f ? 1 : 0, below = f->to_y != 0.0f ? 1 : 0;
+    const float a = luminance_of(past[texel_index(f->x, f->y, width, height)]);
+    const float b = luminance_of(past[texel_index(f->x + right, f->y, width, height)]);
+    const float c = luminance_of(past[texel_index(f->x, f->y + below, width, height)]);
+    const float d = luminance_of(past[texel_index(f->x + right, f->y + below, width, height)]);
+    const float low = m_min(m_min(a, b), m_min(c, d)), high = m_max(m_max(a, b), m_max(c, d));
+    const float kept = fresh < low ? low : (fresh > high ? high : fresh);
+    return m_divide(fresh - kept, m_max(fresh, kept) + 0x1p-5f);
+}
+
+/* Of what is another surface altogether. */
+#define ANOTHER_SURFACE 4.0f
+
+/* difference[i]: of the fresh support sample i from its history, 0 where there is none to compare
+ * with and at silhouettes, which are sampled anyway. One work-item a support sample. */
+kernel void
+measure_change(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
+               global const float* restrict columns, global const float* restrict rows,
+               global const float* restrict mesh_columns, global const float* restrict mesh_rows,
+               global const float4* restrict vertices, global const uint* restrict keys,
+               global const uint* restrict errors, global const uint* restrict history_kept,
+               global const float4* restrict past_colour,
+               global const float4* restrict support_image,
+               global const float4* restrict support_geometry, global float* restrict difference) {
+    const uint index = (uint)get_global_id(0);
+    const uint across = weier->support_width, row = index / across;
+    if (row >= weier->support_height)
+        return;
+    const float x = columns[index % across], y = rows[row];
+    const uint key = keys[(uint)y * weier->pitch + (uint)x];
+    difference[index] = 0.0f;
+    if (*history_kept == 0u || key == MACULA_NO_KEY)
+        return;
+    const uint cell = cell_of_key(key, weier);
+    const uint i = cell & ((1u << weier->cell_bits_x) - 1u), j = cell >> weier->cell_bits_x;
+    if ((errors[j * across + i] & MACULA_RESAMPLE_DEPTH) != 0u)
+        return;
+    const MeshTables mesh = {vertices, mesh_columns, mesh_rows};
+    const History h = find_history(&mesh, weier, key, x, y);
+    if (!h.found)
+        return;
+    if (fabs(fma(support_geometry[index].w, h.inverse_depth, -1.0f)) > weier->merge_threshold) {
+        difference[index] = ANOTHER_SURFACE;
+        return;
+    }
+    const Footing f = footing_at(
+        clamp(h.at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height)));
+    difference[index] = difference_from(past_colour, frame->width, frame->height, &f,
+                                        luminance_of(support_image[index]));
+}
+
+/* What is seen as a change, as a part of the brightness. */
+#define LEAST_CHANGE 0x1p-3f
+
+/* The differences of sample i and its eight neighbours are mostly noise: they are believed where
+ * their sum is twice as large as that of as much noise would be. */
+static inline bool is_significant(global const float* difference, int x, int y, uint across,
+                                  uint down) {
+    float sum = 0.0f, squares = 0.0f;
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+            const float there = difference[texel_index(x + i, y + j, across, down)];
+            sum += there;
+            squares = fma(there, there, squares);
+        }
+    return sum * sum >= 4.0f * squares;
+}
+
+/* change[i]: MACULA_CHANGE_* of support sample i. One work-item a support sample. MACULA_NOISY: 1
+ * where the light has noise. */
+kernel void find_change(global const WeierParams* restrict weier,
+                        global const float* restrict difference, global uint* restrict change) {
+    const uint index = (uint)get_global_id(0);
+    const uint across = weier->support_width, down = weier->support_height;
+    if (index >= across * down)
+        return;
+    const float here = fabs(difference[index]);
+    const int x = (int)(index % across), y = (int)(index / across);
+    uint found = here > LEAST_CHANGE ? MACULA_CHANGE_OF_LIGHT : MACULA_CHANGE_NONE;
+    if (MACULA_NOISY != 0 && !is_significant(difference, x, y, across, down))
+        found = MACULA_CHANGE_NONE;
+    change[index] = here < ANOTHER_SURFACE ? found : MACULA_CHANGE_OF_SURFACE;
+}
