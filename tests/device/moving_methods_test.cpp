@@ -58,14 +58,19 @@ struct Allowed {
     std::size_t history = 1; // frames, this one included, in which a pixel may have been refreshed
 };
 
+// A history of 1.8 pixels to a sample goes with the nearest of three by three samples: a seam of
+// less than four pixels around an object is of both.
+constexpr int kSeam = 4;
+
 Allowed allowed(const std::string& method) {
+    const int seam = method.find('+') == std::string::npos ? 0 : kSeam;
     if (method == "rrm")
         return {0, 12}; // 3 x 4 blocks in turn
     if (method.starts_with("log"))
-        return {8, 1};
+        return {6 + seam, 1};
     if (method.starts_with("lowres"))
         return {4, 1};
-    return {method.find('+') == std::string::npos ? 0 : 2, 1};
+    return {seam, 1};
 }
 
 render::Options options(const std::string& method) {
@@ -106,7 +111,7 @@ TEST_P(EachMethod, LeavesNoTrailAndLosesNothing) {
 }
 
 // Two stripes of the panel differ in green. What follows the picture instead of the object mixes
-// them up after a few frames.
+// them up after a few frames. (rrm follows nothing: there a pixel is up to twelve frames old.)
 TEST_P(EachMethod, FollowsTheObjectsPattern) {
     const std::string method = GetParam();
     const scene::Scene scene = crossing();
@@ -136,7 +141,7 @@ TEST_P(EachMethod, FollowsTheObjectsPattern) {
     }
     ASSERT_GT(all, 1000u);
     RecordProperty("right", std::to_string(double(right) / double(all)));
-    EXPECT_GT(double(right), (method == "rrm" ? 0.5 : 0.8) * double(all));
+    EXPECT_GT(double(right), (method == "rrm" ? 0.5 : 0.9) * double(all));
 }
 
 std::vector<std::string> names() {
