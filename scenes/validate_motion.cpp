@@ -277,6 +277,15 @@ void validate_physics(const Scene& scene, const Physics& physics) {
         throw SceneError(where + "gravity is not finite");
     if (!(physics.frame_rate >= 1.0f && physics.frame_rate <= 1000.0f))
         throw SceneError(where + "the frame rate must lie between 1 and 1000");
+    const CollisionAcuity& acuity = physics.acuity;
+    if (!(physics.speed >= 0.0f) || !finite(physics.speed) || !(physics.reach >= 0.0f) ||
+        !finite(physics.reach) || !(physics.friction >= 0.0f) || !finite(physics.friction))
+        throw SceneError(where + "speed, reach and friction must be at least 0");
+    if (!(physics.restitution >= 0.0f && physics.restitution <= 1.0f))
+        throw SceneError(where + "the restitution must lie between 0 and 1");
+    if (!(acuity.exact_degrees >= 0.0f && acuity.exact_degrees <= 180.0f) ||
+        !(acuity.levels_per_degree >= 0.0f && acuity.levels_per_degree <= 100.0f))
+        throw SceneError(where + "the acuity of collisions is out of range");
     std::vector<bool> moved(scene.instances.size());
     for (const MovedInstance& instance : scene.motion.instances)
         moved[instance.instance] = true;
