@@ -47,7 +47,7 @@ const app::FlyThrough kMoving = {"whitted_moving",
                                  "desktop_1080p",
                                  "480x270",
                                  "target:speed=30",
-                                 100,
+                                 30,
                                  48,
                                  {"full", "weier", "rrm", "logpolar+taa+upscale"}};
 
