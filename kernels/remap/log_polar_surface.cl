@@ -152,7 +152,8 @@ static inline Shown show_pixels(global const float* sampled, uint pixels, const 
     const Real x = plane_at(sampled + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
     const Real y = plane_at(sampled + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
     const Real nearest = within ? around.depth : own;
-    const Depths depths = {nearest, nearest}, kept = {nearest, own};
+    const Real behind = within ? seam_depth(&around, own, x, y) : own;
+    const Depths depths = {nearest, nearest}, kept = {nearest, behind};
     const Shown shown = {within ? around.motion_x : x,
                          within ? around.motion_y : y,
                          depths,

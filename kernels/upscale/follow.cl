@@ -13,10 +13,12 @@ kernel void follow_surfaces(global const FrameParams* restrict frame,
         return;
     const uint pixels = frame->width * frame->height;
     const Nearest n = nearest_surface(surfaces, pixels, &s);
+    const Real own = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
+    const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
+    const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
     global const float* normals = surfaces + MACULA_PLANE_NORMAL * pixels;
     store_plane(range + MACULA_PLANE_LEAST * pixels, &s, n.depth);
-    store_plane(range + MACULA_PLANE_MOST * pixels, &s,
-                plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0));
+    store_plane(range + MACULA_PLANE_MOST * pixels, &s, seam_depth(&n, own, x, y));
     store_plane(range + MACULA_PLANE_FACING * pixels, &s, plane_at(normals, &s, 0, 0));
     const Depths depths = {n.depth, n.depth};
     const Before before = find_before(frame, &s, n.motion_x, n.motion_y, depths, past_range);
