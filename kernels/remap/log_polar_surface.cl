@@ -45,7 +45,7 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
 }
 
 /* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
- * three texels, and the texel's own normal; motions: their mean, the deviation of the luminance, 1.
+ * three texels; motions: their mean, the deviation of the luminance, 1.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -60,7 +60,6 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const bool whole = s.x + MACULA_LANES + 2 <= (int)pitch;
     const Real zero = splat(0.0f);
     Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero};
-    Real normal = zero;
     for (int k = 0; k < 9; ++k) {
         /* A row begins with an empty texel. */
         const Int i = strip_columns(&s) + k % 3;
@@ -69,7 +68,6 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
         const Lane4 surface = texels_from(surfaces, from, whole, last);
         const Mask sampled = (i > needed) & (i <= s.width) & (colour.w > zero);
         add_texels(&sums, sampled, luminance_of(colour.xyz), surface.xyz);
-        normal = k == 4 && any_lane(sampled) ? (sampled ? surface.w : zero) : normal;
     }
     const Real one = splat(1.0f), share = m_divide(one, m_max(sums.count, one));
     const Real mean = sums.light * share;
@@ -77,7 +75,7 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const Real moved = m_divide(one, m_max(sums.movable, one));
     const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
     const Mask inside = strip_inside(&s);
-    scatter4(ranges, lanes_from(to), inside, make3(sums.least, sums.most, normal), zero);
+    scatter4(ranges, lanes_from(to), inside, make3(sums.least, sums.most, zero), zero);
     scatter4(motions, lanes_from(to), inside,
              make3(sums.motion_x * moved, sums.motion_y * moved, spread),
              sums.movable > zero ? one : zero);
@@ -109,24 +107,6 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
     return sum;
 }
 
-/* As still_faces(), of the texels around the nearest one to a pixel. */
-static inline Mask texels_face(global const LogPolarParams* params, global const Fovea* fovea,
-                               global const float4* ranges, const Place* p, Real own, Real facing,
-                               Mask wanted) {
-    Mask alike = own == facing;
-    if (any_lane(wanted & !alike))
-        alike = face_alike(own, facing);
-    const Int last = splat_int((int)params->width - 1);
-    const Int first = min(splat_int((int)fovea->first_column), last);
-    const Int column = to_int(rint(p->column)), row = to_int(rint(p->row));
-    for (int k = 0; k < 9 && any_lane(wanted & !alike); ++k) {
-        const Int at = min(max(column + (k % 3 - 1), first), last);
-        const Uint texel = texel_at(params, at, row + (k / 3 - 1));
-        alike = alike | face_alike(MACULA_GATHER(float, ranges, texel, .z), facing);
-    }
-    return alike;
-}
-
 /* What a strip shows: where it was, how far away, which way it faces. */
 typedef struct Shown {
     Real motion_x, motion_y;
@@ -140,7 +120,7 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
     const Lane4 motion = motion_at(params, motions, p);
     const Real3 range = gather4(ranges, nearest).xyz;
     const Depths depths = {range.x, range.y};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, splat(0.0f), motion.xyz.z};
     return shown;
 }
 
@@ -196,12 +176,12 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     /* At the disk's edge a pixel has neighbours that were not sampled. */
     const Mask within = distance < splat(fovea->radius - 1.5f);
     const bool some_beyond = any_lane(inside & beyond), some_within = any_lane(inside & !beyond);
-    Place p = {zero, zero};
     Shown shown = {zero, zero, {zero, zero}, {zero, zero}, zero, zero};
     if (some_beyond) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
-        p = place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
+        const Place p =
+            place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
         shown = show_texels(params, ranges, motions, &p);
     }
     if (some_within) {
@@ -215,11 +195,10 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     const Before before =
         find_before(frame, &s, shown.motion_x, shown.motion_y, shown.depths, past_range);
     Mask same = before.same;
-    if (some_beyond && any_lane(same & beyond))
-        same = same & (!beyond | texels_face(params, fovea, ranges, &p, shown.normal,
-                                             before.facing, same & beyond));
-    if (some_within && any_lane(same & within))
-        same = same & (!within | still_faces(sampled + MACULA_PLANE_NORMAL * pixels, &s,
-                                             before.facing, same & within));
+    /* Beyond the disk two frames' samples lie too far apart to tell by their normals. */
+    const Mask judged = same & within & moves(shown.motion_x, shown.motion_y);
+    if (any_lane(judged))
+        same = same & (!judged | still_faces(sampled + MACULA_PLANE_NORMAL * pixels, &s,
+                                             before.facing, judged));
     store_followed(&s, shown.motion_x, shown.motion_y, same, followed);
 }

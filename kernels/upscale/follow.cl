@@ -22,6 +22,8 @@ kernel void follow_surfaces(global const FrameParams* restrict frame,
     store_plane(range + MACULA_PLANE_FACING * pixels, &s, plane_at(normals, &s, 0, 0));
     const Depths depths = {n.depth, n.depth};
     const Before before = find_before(frame, &s, n.motion_x, n.motion_y, depths, past_range);
-    const Mask same = before.same & still_faces(normals, &s, before.facing, before.same);
+    const Mask judged = before.same & moves(n.motion_x, n.motion_y);
+    const Mask same =
+        before.same & (!judged | still_faces(normals, &s, before.facing, judged));
     store_followed(&s, n.motion_x, n.motion_y, same, followed);
 }

@@ -104,6 +104,11 @@ static inline Before find_before(global const FrameParams* frame, const Strip* s
     return before;
 }
 
+/* So far that a surface can have come into view. At rest only the jitter changes normals. */
+static inline Mask moves(Real motion_x, Real motion_y) {
+    return m_max(fabs(motion_x), fabs(motion_y)) > splat(SEAM_MOTION);
+}
+
 /* What faced the viewer in the last frame still does: at the pixel, or at one of those around it,
  * whose edges the jitter moves. */
 static inline Mask still_faces(global const float* normals, const Strip* s, Real facing,
