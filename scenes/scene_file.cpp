@@ -6,6 +6,7 @@
 #include "scenes/display.hpp"
 #include "scenes/formats.hpp"
 #include "scenes/procedural/registry.hpp"
+#include "scenes/scene_file_physics.hpp"
 #include "scenes/scene_overrides.hpp"
 #include "scenes/toml_reader.hpp"
 
@@ -210,6 +211,8 @@ Scene load_scene_file(const std::string& text, const std::filesystem::path& path
     const float scale = root.number("scale", 1e-9, 1e9).value_or(1.0f);
     transform_scene(scene, up, scale);
     read_view(root, path, options, scene);
+    if (const std::optional<TomlTable> physics = root.table("physics"))
+        read_physics(*physics, scene);
     for (const TomlTable& table : root.tables("material"))
         override_material(table, scene);
     root.reject_unknown();
