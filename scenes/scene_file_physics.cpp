@@ -71,7 +71,7 @@ Physics read_bodies(const TomlTable& table) {
 void read_physics(const TomlTable& table, Scene& scene) {
     if (!scene.motion.instances.empty() || scene.physics)
         table.fail("radius",
-                   "the named scene moves by itself: physics needs one that stands still");
+                   "something of the scene moves already: physics needs one that stands still");
     if (table.has("ground"))
         add_ground(table, scene);
     else if (table.has("ground_size"))
