@@ -132,18 +132,6 @@ std::optional<std::vector<double>> TomlTable::numbers(std::string_view key, std:
     return result;
 }
 
-std::vector<std::string> TomlTable::strings(std::string_view key) const {
-    std::vector<std::string> result;
-    if (!has(key))
-        return result;
-    const auto* array = node_->table->get_as<toml::array>(key);
-    if (array == nullptr || !array->is_homogeneous(toml::node_type::string))
-        fail(key, "texts [\"a\", \"b\", ...] were expected");
-    for (const toml::node& element : *array)
-        result.push_back(element.value<std::string>().value_or(""));
-    return result;
-}
-
 std::optional<glm::vec3> TomlTable::vec3(std::string_view key) const {
     if (!has(key))
         return std::nullopt;

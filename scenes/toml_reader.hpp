@@ -37,7 +37,6 @@ class TomlTable {
     // [a, b, ...], at most `most` of them.
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t most, double lo,
                                                double hi) const;
-    std::vector<std::string> strings(std::string_view key) const; // ["a", ...]; empty when absent
     // [x, y, z], each below 1e18 in size.
     std::optional<glm::vec3> vec3(std::string_view key) const;
     // [r, g, b] or one grey value, each in 0 .. hi; linear RGB.
