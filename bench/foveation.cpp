@@ -7,38 +7,13 @@
 #include "bench/flight.hpp"
 #include "bench/foveation_scenes.hpp"
 #include "bench/resume_file.hpp"
+#include "bench/series.hpp"
 #include "host/metric/statistics.hpp"
 #include "host/render/renderer.hpp"
 #include "scenes/gaze/spec.hpp"
 
 namespace macula::bench {
 namespace {
-
-// What one method needed for the measured frames.
-struct Series {
-    std::vector<double> device_ms, wall_ms, rays, camera_rays;
-    std::array<std::vector<double>, kStageGroups> group_ms;
-
-    void add(const render::FrameReport& report) {
-        const auto groups = sum_by_group(report.stages);
-        double sum = 0.0;
-        for (std::size_t i = 0; i < kStageGroups; ++i) {
-            group_ms[i].push_back(groups[i]);
-            sum += groups[i];
-        }
-        device_ms.push_back(sum);
-        wall_ms.push_back(report.wall_ms);
-        rays.push_back(static_cast<double>(report.total_rays()));
-        camera_rays.push_back(bench::camera_rays(report));
-    }
-};
-
-double mean(std::span<const double> values) {
-    double sum = 0.0;
-    for (const double value : values)
-        sum += value;
-    return sum / static_cast<double>(values.size());
-}
 
 void fill(FoveationRow& row, const Series& full, const Series& ours) {
     row.rays_full = mean(full.rays);

@@ -21,7 +21,8 @@ struct FileScene {
     const char* name;
     const char* geometry;
 };
-constexpr std::array kFileScenes = {FileScene{"sibenik", "sibenik/sibenik.obj"},
+constexpr std::array kFileScenes = {FileScene{"bunny_5k", "bunny/bunny_5k.obj"},
+                                    FileScene{"sibenik", "sibenik/sibenik.obj"},
                                     FileScene{"sponza_crytek", "sponza_crytek/sponza.obj"}};
 
 bool is_found(const char* file, std::span<const fs::path> folders) {

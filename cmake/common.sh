@@ -9,7 +9,7 @@ build_packages=(
   ocl-icd-opencl-dev opencl-clhpp-headers opencl-c-headers pocl-opencl-icd
   libembree-dev libglm-dev libopenimageio-dev libopenexr-dev libtbb-dev libtinyobjloader-dev
   libtinygltf-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libxxhash-dev
-  libzstd-dev zlib1g-dev
+  libzstd-dev zlib1g-dev libbullet-dev
 )
 test_packages=(libgtest-dev libgmock-dev)
 check_packages=(oclgrind mesa-opencl-icd clang libclang-rt-14-dev python3-venv

@@ -61,6 +61,14 @@ Transform transform_of(const glm::mat4& affine);
 // Places the instances that key frames move as they are in `frame`.
 void place_instances(Scene& scene, float frame);
 
+// How finely the spheres meet the obstacles, by their eccentricity: the angle in degrees between
+// the gaze and the nearest edge of the sphere, seen from the eye. docs/physics.md has the rule.
+struct CollisionAcuity {
+    float exact_degrees = 5.0f;       // up to there triangles are met, 0..180; 180: everywhere
+    float levels_per_degree = 1.0f;   // levels of the obstacle's tree left out beyond, 0..100
+    std::uint32_t coarsest_level = 4; // never less deep than this; 0: the box of all (the paper's)
+};
+
 // Spheres that fall on what stands still (Smith et al. 2014, section 3.3).
 struct Physics {
     // Instances that move: their meshes are spheres of `radius` about the object space's origin.
@@ -71,6 +79,12 @@ struct Physics {
     glm::vec3 gravity{0.0f, -9.81f, 0.0f}; // world units / s^2
     float frame_rate = 60.0f;              // frames a second, 1..1000
     std::uint32_t seed = 0;                // of the spheres' first velocities
+    float speed = 0.0f;                    // world units / s, of the first velocities; at least 0
+    float restitution = 0.3f;              // of every contact, 0..1
+    float friction = 0.5f;                 // of every contact, at least 0
+    // A sphere farther than this from where it started starts again, once there is room; 0: none.
+    float reach = 0.0f;
+    CollisionAcuity acuity;
 };
 
 } // namespace macula::scene

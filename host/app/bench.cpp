@@ -15,6 +15,7 @@
 #include "bench/traversal.hpp"
 #include "host/app/bench_foveation.hpp"
 #include "host/app/bench_quality.hpp"
+#include "host/app/bench_rrm.hpp"
 #include "host/app/bench_thesis.hpp"
 
 #include <unistd.h>
@@ -118,17 +119,22 @@ macula::app::Run add(CLI::App& command) {
         "quality", "Quality and time of full, weier and lowres against converged references");
     CLI::App* thesis = command.add_subcommand(
         "thesis", "Views and modes of Mrad 2022, chapter 5: time, FLIP and flicker");
+    CLI::App* rrm = command.add_subcommand(
+        "rrm", "Refresh rate modulation beside full frames: figures 9 to 11 of Smith et al. 2014");
     command.require_subcommand(1);
     const auto run_traversal = add_traversal(*traversal);
     const auto run_table1 = macula::app::add_bench_table1(*table1);
     const auto run_figure5 = macula::app::add_bench_figure5(*figure5);
     const auto run_quality = macula::app::add_bench_quality(*quality);
     const auto run_thesis = macula::app::add_bench_thesis(*thesis);
+    const auto run_rrm = macula::app::add_bench_rrm(*rrm);
     return [=] {
         if (table1->parsed())
             return run_table1();
         if (quality->parsed())
             return run_quality();
+        if (rrm->parsed())
+            return run_rrm();
         if (thesis->parsed())
             return run_thesis();
         return figure5->parsed() ? run_figure5() : run_traversal();

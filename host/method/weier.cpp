@@ -18,16 +18,20 @@ namespace {
 // The part of the light buffer that a light mode fills: noisy, hence cached and filtered. Point
 // lights have no noise.
 struct Light {
-    bool occlusion, filtered;
+    bool occlusion, noisy, filtered;
     std::uint32_t bytes;      // of a value; 0: nothing is cached
     std::string fresh, image; // a slot's value, and the light buffer's name as an image
 
     Light(frame::LightMode mode, bool post)
         : occlusion(mode == frame::LightMode::ambient_occlusion),
-          filtered(post && mode != frame::LightMode::point),
+          noisy(mode != frame::LightMode::point), filtered(post && noisy),
           bytes(!filtered ? 0 : (occlusion ? 4 : 16)),
           fresh(occlusion ? "surface openness" : "surface irradiance"),
           image(occlusion ? "ambient occlusion" : "irradiance") {}
+
+    // Ambient occlusion has it everywhere, other light at the edges of shadows: to take that for a
+    // change costs a few samples, to miss a change leaves a trail.
+    std::uint32_t noise() const { return !noisy ? 0 : (occlusion ? 4 : 2); }
 
     const std::string& shaded() const {
         static const std::string after = "filtered light";
@@ -78,7 +82,7 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     if (catch_up)
         graph.add(stage::measure_lag(foveated));
     if (foveated.can_move())
-        graph.add(stage::find_change(foveated, options.lights != frame::LightMode::point));
+        graph.add(stage::find_change(foveated, light.noise()));
     graph.add(stage::merge_cache(foveated, catch_up, light.image, light.bytes))
         .add(stage::show_intermediates(foveated));
     if (options.weier.overlay)

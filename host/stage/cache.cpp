@@ -74,17 +74,17 @@ frame::Stage measure_lag(const FoveatedKit& kit) {
     return stage;
 }
 
-frame::Stage find_change(const FoveatedKit& kit, bool noisy) {
+frame::Stage find_change(const FoveatedKit& kit, std::uint32_t noise) {
     frame::Stage stage;
     stage.name = "find what changed";
     stage.reads = {"mesh vertices", "pixel keys",    "resampling info",
                    "history kept",  "support image", "support geometry"};
-    stage.reads_last = {kit.image};
+    stage.reads_last = {kit.image, "support change"};
     stage.writes = {kit.per_support("support change", 4)};
     stage.scratch = {kit.per_support("difference from the history", 4)};
-    stage.prepare = [kit, noisy, name = stage.name] {
+    stage.prepare = [kit, noise, name = stage.name] {
         kit.grid->prepare(kit.kit);
-        const auto key = kernel::VariantKey("cache/change").parameter("noisy", noisy ? 1 : 0);
+        const auto key = kernel::VariantKey("cache/change").parameter("noise", noise);
         auto measure = kit.kit.library.kernel(key, "measure_change", kit.kit.device);
         auto find = kit.kit.library.kernel(key, "find_change", kit.kit.device);
         return [kit, name, measure, find](frame::Run& run) mutable {
@@ -99,7 +99,8 @@ frame::Stage find_change(const FoveatedKit& kit, bool noisy) {
                 .set(run.params_buffer(), grid.params_buffer, grid.columns, grid.rows,
                      grid.mesh_columns, grid.mesh_rows, run["mesh vertices"], run["pixel keys"],
                      run["resampling info"], run["history kept"], run.last(kit.image),
-                     run["support image"], run["support geometry"], difference)
+                     run.last("support change"), run["support image"], run["support geometry"],
+                     difference, run["support change"])
                 .launch(name, {range}, {kGroup});
             find.set(grid.params_buffer, difference, run["support change"])
                 .launch(name, {range}, {kGroup});

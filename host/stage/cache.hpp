@@ -14,8 +14,9 @@ frame::Stage extract_support(const FoveatedKit& kit);
 frame::Stage measure_lag(const FoveatedKit& kit);
 
 // "support change": MACULA_CHANGE_* of the support samples, what they show that their history does
-// not although it moved with its object; none where nothing moved. `noisy`: the light is.
-frame::Stage find_change(const FoveatedKit& kit, bool noisy);
+// not although it moved with its object; none where nothing moved. `noise`: of the light,
+// MACULA_NOISE of kernels/cache/change.cl.
+frame::Stage find_change(const FoveatedKit& kit, std::uint32_t noise);
 
 // The list's samples, last frame's image and the support image -> this frame's image (`kit.image`),
 // "cache info" (kernels/lib/cache_info.h) and, with `light_bytes` 4 or 16, the light buffer `light`

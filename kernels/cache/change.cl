@@ -1,5 +1,5 @@
-/* Where what moves changed what is seen: its shadow or its mirror image passes, or it was nowhere in
- * the last frame, so that the history shows what is no longer so. The support samples tell, each
+/* Where what moves changed what is seen: its shadow or its mirror image passes, or it was nowhere
+ * in the last frame, so that the history shows what is no longer so. The support samples tell, each
  * frame and everywhere; the next frame samples the cells about them. */
 #include "lib/camera.h"
 #include "lib/reprojection.h"
@@ -25,18 +25,35 @@ static inline float difference_from(global const float4* past, uint width, uint 
 
 /* Of what is another surface altogether. */
 #define ANOTHER_SURFACE 4.0f
+/* A change is remembered for as many frames: the edge of a shadow may take them to the next sample.
+ */
+#define CHANGE_FRAMES 16u
+
+/* What is remembered of the change that was found where a history lay. */
+static inline uint remembered_at(global const WeierParams* weier, global const FrameParams* frame,
+                                 global const uint* past_change, float2 at) {
+    const uint across = weier->support_width, down = weier->support_height;
+    const float x = place_in_support((uint)m_max(at.x, 0.0f), frame->width, across);
+    const float y = place_in_support((uint)m_max(at.y, 0.0f), frame->height, down);
+    const uint found = past_change[texel_index((int)x, (int)y, across, down)];
+    if ((found & MACULA_CHANGE_NOW) != 0u)
+        return MACULA_CHANGE_FRAME * CHANGE_FRAMES;
+    return found != 0u ? found - MACULA_CHANGE_FRAME : 0u;
+}
 
 /* difference[i]: of the fresh support sample i from its history, 0 where there is none to compare
- * with and at silhouettes, which are sampled anyway. One work-item a support sample. */
+ * with and at silhouettes, which are sampled anyway. change[i]: what is remembered there. One
+ * work-item a support sample. */
 kernel void
 measure_change(global const FrameParams* restrict frame, global const WeierParams* restrict weier,
                global const float* restrict columns, global const float* restrict rows,
                global const float* restrict mesh_columns, global const float* restrict mesh_rows,
                global const float4* restrict vertices, global const uint* restrict keys,
                global const uint* restrict errors, global const uint* restrict history_kept,
-               global const float4* restrict past_colour,
+               global const float4* restrict past_colour, global const uint* restrict past_change,
                global const float4* restrict support_image,
-               global const float4* restrict support_geometry, global float* restrict difference) {
+               global const float4* restrict support_geometry, global float* restrict difference,
+               global uint* restrict change) {
     const uint index = (uint)get_global_id(0);
     const uint across = weier->support_width, row = index / across;
     if (row >= weier->support_height)
@@ -44,6 +61,7 @@ measure_change(global const FrameParams* restrict frame, global const WeierParam
     const float x = columns[index % across], y = rows[row];
     const uint key = keys[(uint)y * weier->pitch + (uint)x];
     difference[index] = 0.0f;
+    change[index] = 0u;
     if (*history_kept == 0u || key == MACULA_NO_KEY)
         return;
     const uint cell = cell_of_key(key, weier);
@@ -54,6 +72,7 @@ measure_change(global const FrameParams* restrict frame, global const WeierParam
     const History h = find_history(&mesh, weier, key, x, y);
     if (!h.found)
         return;
+    change[index] = remembered_at(weier, frame, past_change, h.at);
     if (fabs(fma(support_geometry[index].w, h.inverse_depth, -1.0f)) > weier->merge_threshold) {
         difference[index] = ANOTHER_SURFACE;
         return;
@@ -67,8 +86,8 @@ measure_change(global const FrameParams* restrict frame, global const WeierParam
 /* What is seen as a change, as a part of the brightness. */
 #define LEAST_CHANGE 0x1p-3f
 
-/* The differences of sample i and its eight neighbours are mostly noise: they are believed where
- * their sum is twice as large as that of as much noise would be. */
+/* The differences of a sample and its eight neighbours may be noise, whose squares add up: the
+ * square of their sum must be MACULA_NOISE times as large, 0 where there is none. */
 static inline bool is_significant(global const float* difference, int x, int y, uint across,
                                   uint down) {
     float sum = 0.0f, squares = 0.0f;
@@ -78,11 +97,10 @@ static inline bool is_significant(global const float* difference, int x, int y, 
             sum += there;
             squares = fma(there, there, squares);
         }
-    return sum * sum >= 4.0f * squares;
+    return sum * sum >= (float)MACULA_NOISE * squares;
 }
 
-/* change[i]: MACULA_CHANGE_* of support sample i. One work-item a support sample. MACULA_NOISY: 1
- * where the light has noise. */
+/* change[i]: MACULA_CHANGE_* of support sample i. One work-item a support sample. */
 kernel void find_change(global const WeierParams* restrict weier,
                         global const float* restrict difference, global uint* restrict change) {
     const uint index = (uint)get_global_id(0);
@@ -91,8 +109,8 @@ kernel void find_change(global const WeierParams* restrict weier,
         return;
     const float here = fabs(difference[index]);
     const int x = (int)(index % across), y = (int)(index / across);
-    uint found = here > LEAST_CHANGE ? MACULA_CHANGE_OF_LIGHT : MACULA_CHANGE_NONE;
-    if (MACULA_NOISY != 0 && !is_significant(difference, x, y, across, down))
-        found = MACULA_CHANGE_NONE;
-    change[index] = here < ANOTHER_SURFACE ? found : MACULA_CHANGE_OF_SURFACE;
+    if (here >= ANOTHER_SURFACE)
+        change[index] = MACULA_CHANGE_OF_SURFACE;
+    else if (here > LEAST_CHANGE && is_significant(difference, x, y, across, down))
+        change[index] = MACULA_CHANGE_OF_LIGHT;
 }

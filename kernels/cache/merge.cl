@@ -272,7 +272,7 @@ MACULA_ALWAYS_INLINE uint contradicted_lanes(global const WeierParams* weier, co
         const int i = (int)fma((float)(x0 + (lane & 3u)), steps->x, 0.5f);
         const int j = (int)fma((float)(y0 + (lane >> 2)), steps->y, 0.5f);
         const uint found = change[texel_index(i, j, across, down)];
-        bits |= found == MACULA_CHANGE_OF_SURFACE ? 1u << lane : 0u;
+        bits |= (found & MACULA_CHANGE_OF_SURFACE) != 0u ? 1u << lane : 0u;
     }
     return bits;
 }

@@ -92,13 +92,27 @@ MACULA_ALWAYS_INLINE int16 near_motion(global const uint* motion, uint i, uint j
     return differs;
 }
 
-/* Cells at a support sample that showed something else than its history did. */
-MACULA_ALWAYS_INLINE int16 near_change(global const uint* change, uint i, uint j, uint across) {
+MACULA_ALWAYS_INLINE float16 contrast_of(const Corners* c) {
+    const float16 bright =
+        m_max(m_max(c[0].luminance, c[1].luminance), m_max(c[2].luminance, c[3].luminance));
+    const float16 dark =
+        m_min(m_min(c[0].luminance, c[1].luminance), m_min(c[2].luminance, c[3].luminance));
+    return bright - dark;
+}
+
+/* What a shadow's edge has at the least. */
+#define LEAST_CONTRAST 0x1p-4f
+
+/* Cells at a support sample that showed something else than its history did, and those at one that
+ * did a while ago as long as an edge may still lie between their corners. */
+MACULA_ALWAYS_INLINE int16 near_change(global const uint* change, const Corners* c, uint i, uint j,
+                                       uint across) {
     global const uint *above = change + j * across, *below = above + across;
-    const uint16 changed =
+    const uint16 found =
         load_row_lanes(above, (int)i, across) | load_row_lanes(above, (int)i + 1, across) |
         load_row_lanes(below, (int)i, across) | load_row_lanes(below, (int)i + 1, across);
-    return changed != 0u;
+    return ((found & MACULA_CHANGE_NOW) != 0u) |
+           ((found != 0u) & (contrast_of(c) > LEAST_CONTRAST));
 }
 
 MACULA_ALWAYS_INLINE int16 flag_where(int16 mask, uint flag) {
@@ -111,10 +125,6 @@ MACULA_ALWAYS_INLINE int16 errors_of(const Corners* c, float16 step_x, float ste
     const float16 jump = m_max(m_max(jump_between(c, c + 1), jump_between(c + 2, c + 3)),
                                m_max(jump_between(c, c + 2), jump_between(c + 1, c + 3)));
     const float16 across = m_max(jump_between(c, c + 3), jump_between(c + 1, c + 2));
-    const float16 bright =
-        m_max(m_max(c[0].luminance, c[1].luminance), m_max(c[2].luminance, c[3].luminance));
-    const float16 dark =
-        m_min(m_min(c[0].luminance, c[1].luminance), m_min(c[2].luminance, c[3].luminance));
     const float16 stretch =
         m_max(m_max(length_ratio(&c[0].vertex, &c[1].vertex, step_x),
                     length_ratio(&c[2].vertex, &c[3].vertex, step_x)),
@@ -125,7 +135,7 @@ MACULA_ALWAYS_INLINE int16 errors_of(const Corners* c, float16 step_x, float ste
                           is_grazing(c + 3, edge);
     const int16 torn = (m_max(jump, across) > weier->depth_threshold) | moved_apart(c);
     return flag_where(torn, MACULA_RESAMPLE_DEPTH) |
-           flag_where(bright - dark > weier->luminance_threshold, MACULA_RESAMPLE_LUMINANCE) |
+           flag_where(contrast_of(c) > weier->luminance_threshold, MACULA_RESAMPLE_LUMINANCE) |
            flag_where(stretch > weier->stretch_threshold, MACULA_RESAMPLE_STRETCHED) |
            flag_where(grazing, MACULA_RESAMPLE_GRAZING);
 }
@@ -377,7 +387,7 @@ prepare_cells(global const FrameParams* restrict frame, global const WeierParams
             found |=
                 flag_where(near_motion(motion, i, j, across, down), MACULA_RESAMPLE_CHANGED);
         if (change)
-            found |= flag_where(near_change(change, i, j, across), MACULA_RESAMPLE_CHANGED);
+            found |= flag_where(near_change(change, c, i, j, across), MACULA_RESAMPLE_CHANGED);
         const int16 torn = drawable & ((found & (int16)MACULA_RESAMPLE_DEPTH) != 0);
         const int16 place =
             ((int16)((int)(j << weier->cell_bits_x)) | column) << 1 | ((found != 0) & 1);

@@ -17,10 +17,12 @@ MACULA_SHARED_BEGIN
 /* Of a cell: some part of it lies in the new view. */
 #define MACULA_CELL_IN_VIEW 256u
 
-/* What a support sample shows that its history does not. */
-#define MACULA_CHANGE_NONE 0u
+/* What a support sample shows that its history does not; else the frames for which a change that
+ * was found there, or where its history lay, is still remembered, times MACULA_CHANGE_FRAME. */
 #define MACULA_CHANGE_OF_LIGHT 1u
 #define MACULA_CHANGE_OF_SURFACE 2u
+#define MACULA_CHANGE_NOW 3u /* either of them */
+#define MACULA_CHANGE_FRAME 4u
 
 /* A pixel that the mesh does not cover. */
 #define MACULA_NO_KEY 0xffffffffu

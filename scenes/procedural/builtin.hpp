@@ -13,6 +13,7 @@ Scene make_tunnel_geometry(const SceneParams& params);
 Scene make_atrium(const SceneParams& params);
 Scene make_voxel_city(const SceneParams& params);
 Scene make_city(const SceneParams& params);
+Scene make_spheres(const SceneParams& params);
 Scene make_tunnel_maps(const SceneParams& params);
 
 } // namespace macula::scene::procedural

@@ -22,6 +22,7 @@ constexpr std::array kScenes{
     Entry{"whitted_moving", make_whitted_moving},
     Entry{"tunnel_geometry", make_tunnel_geometry},
     Entry{"tunnel_maps", make_tunnel_maps},
+    Entry{"spheres", make_spheres},
 };
 
 // Meshes made here are placed once, where they were built, unless the maker placed them itself.

@@ -182,4 +182,36 @@ TEST(WeierMotion, WhatLeapsIntoTheViewCoversWhatWasThere) {
     }
 }
 
+// The shadow of the panel on the wall: a light to the left of the eye casts it beside the panel.
+TEST(WeierMotion, AShadowHasATrailOfACellAndNoMore) {
+    scene::Scene scene = panel_before_a_wall(-6.0f);
+    scene.lights.emplace_back();
+    scene.lights[0].position = {-4, 0, 0};
+    scene.lights[0].colour = glm::vec3(15.0f); // too faint for --eps-lum
+    const WeierSetup setup = peripheral();
+    PanelOnItsWay way(setup, scene, 2.0f);
+    std::vector<int> since(std::size_t{setup.width} * setup.height, 100); // it changed in `full`
+    std::vector<Float4> before;
+    int oldest = 0;
+    std::size_t trail = 0, changed = 0;
+    for (std::uint32_t frame = 0; frame < 12; ++frame) {
+        way.run(frame);
+        for (std::size_t i = 0; frame > 0 && i < since.size(); ++i) {
+            const auto differ = [&](const Float4& a, const Float4& b) {
+                return std::abs(a.y - b.y) > 0.25f * std::max(a.y, b.y);
+            };
+            const bool now = differ(way.truth[i], before[i]);
+            since[i] = now ? 0 : since[i] + 1;
+            changed += now;
+            if (differ(way.shown[i], way.truth[i])) {
+                ++trail;
+                oldest = std::max(oldest, since[i]);
+            }
+        }
+        before = way.truth;
+    }
+    EXPECT_LE(oldest, 4) << "frames for which a pixel is wrong after it changed";
+    EXPECT_LT(trail, changed / 4) << "wrong pixels, of so many that changed";
+}
+
 } // namespace

@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"whitted", 0, 0.3f}, Case{"whitted_moving", 0, 0.3f},
                     Case{"tunnel_geometry", 0, 0.4f}, Case{"tunnel_maps", 0, 0.8f},
                     Case{"atrium", 0, 0.3f}, Case{"city", 0, 1.0f}, Case{"voxel_city", 64, 1.0f},
-                    Case{"voxel_city", 256, 1.0f}),
+                    Case{"voxel_city", 256, 1.0f}, Case{"spheres", 0, 0.3f}),
     [](const auto& tested) { return tested.param.name + std::to_string(tested.param.size); });
 
 } // namespace

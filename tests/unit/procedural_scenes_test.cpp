@@ -235,20 +235,19 @@ TEST_P(ProceduralScene, IsWhole) {
     has_light_camera_path_and_placed_meshes(scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ProceduralScene,
-                         testing::Values(Case{"atrium", 250e3, 25e3}, Case{"city", 770e3, 20e3},
-                                         Case{"voxel_city", 47e3, 5e3}, Case{"cornell", 38, 0},
-                                         Case{"cornell_spheres", 32e3, 1e3},
-                                         Case{"whitted", 73e3, 1e3},
-                                         Case{"whitted_moving", 109e3, 1e3},
-                                         Case{"tunnel_geometry", 280e3, 5e3},
-                                         Case{"tunnel_maps", 120e3, 2e3}),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    All, ProceduralScene,
+    testing::Values(Case{"atrium", 250e3, 25e3}, Case{"city", 770e3, 20e3},
+                    Case{"voxel_city", 47e3, 5e3}, Case{"cornell", 38, 0},
+                    Case{"cornell_spheres", 32e3, 1e3}, Case{"whitted", 73e3, 1e3},
+                    Case{"whitted_moving", 109e3, 1e3}, Case{"tunnel_geometry", 280e3, 5e3},
+                    Case{"tunnel_maps", 120e3, 2e3}, Case{"spheres", 53e3, 1e3}),
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(ProceduralRegistry, NamesAreThoseThatAreTested) {
     EXPECT_EQ(names(), (std::vector<std::string_view>{
                            "atrium", "voxel_city", "city", "cornell", "cornell_spheres", "whitted",
-                           "whitted_moving", "tunnel_geometry", "tunnel_maps"}));
+                           "whitted_moving", "tunnel_geometry", "tunnel_maps", "spheres"}));
 }
 
 TEST(ProceduralRegistry, UnknownNameGivesNothing) {
