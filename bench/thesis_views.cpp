@@ -25,6 +25,7 @@ constexpr std::array kModes = {
     ThesisMode{"logpolar+upscale", "logpolar+upscale", "DLSS"},
     ThesisMode{"logpolar+taa+upscale", "logpolar+taa+upscale", "TAA"},
     ThesisMode{"full+upscale", "full+upscale", ""},
+    ThesisMode{"weier+upscale", "weier+upscale", ""},
 };
 
 template <typename T, typename Name>

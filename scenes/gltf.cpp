@@ -1,5 +1,5 @@
 // glTF 2.0: the node tree is walked once; meshes used by one node are moved to world space and
-// joined, meshes used by several stay shared and become instances.
+// joined, meshes that are used by several or that move stay as they are and become instances.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scenes/formats.hpp"
+#include "scenes/gltf_animation.hpp"
 #include "scenes/gltf_document.hpp"
 #include "scenes/gltf_mesh.hpp"
 
@@ -50,8 +51,9 @@ Transform to_transform(const glm::dmat4& m) {
 
 class GltfLoader {
   public:
-    GltfLoader(const GltfDocument& document, Scene& scene, bool textures)
-        : document_(document), model_(document.model()), scene_(scene), textures_(scene, textures),
+    GltfLoader(const GltfDocument& document, Scene& scene, const LoadOptions& options)
+        : document_(document), model_(document.model()), scene_(scene), options_(options),
+          animation_(document, options), textures_(scene, options.textures),
           meshes_(document, scene) {}
 
     void load();
@@ -60,12 +62,18 @@ class GltfLoader {
     struct Placed {
         int node;
         glm::dmat4 world;
+        std::size_t parent = kNoParent;    // index into what walk() returns
+        bool moves = false;                // it or a node above it
+        std::uint32_t moving = kNoNode;    // its node of Scene::motion
+        const std::string* kept = nullptr; // name of itself or of a node above it
     };
+    static constexpr std::size_t kNoParent = ~std::size_t{0};
     std::vector<int> roots() const;
     std::vector<Placed> walk() const;
     void check_node(int node) const;
+    void add_motion(std::vector<Placed>& nodes);
     void add_mesh(const Placed& placed, bool shared);
-    void add_instance(int mesh, const glm::dmat4& world, const std::string& name);
+    void add_instance(int mesh, const Placed& placed);
     void add_joined();
     void add_camera(const tinygltf::Node& node, const glm::dmat4& world);
     void add_light(const tinygltf::Node& node, const glm::dmat4& world);
@@ -74,6 +82,8 @@ class GltfLoader {
     const GltfDocument& document_;
     const tinygltf::Model& model_;
     Scene& scene_;
+    const LoadOptions& options_;
+    GltfAnimation animation_;
     TextureSet textures_;
     GltfMeshReader meshes_;
     std::map<int, std::uint32_t> shared_; // glTF mesh -> scene mesh
@@ -109,13 +119,14 @@ std::vector<int> GltfLoader::roots() const {
 std::vector<GltfLoader::Placed> GltfLoader::walk() const {
     std::vector<Placed> stack, placed;
     std::vector<bool> seen(model_.nodes.size());
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& world) {
+    const auto push = [&](const std::vector<int>& nodes, Placed above) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
             check_node(*node);
-            stack.push_back({*node, world});
+            above.node = *node;
+            stack.push_back(above);
         }
     };
-    push(roots(), glm::dmat4(1.0));
+    push(roots(), {-1, glm::dmat4(1.0)});
     while (!stack.empty()) {
         Placed next = stack.back();
         stack.pop_back();
@@ -124,11 +135,44 @@ std::vector<GltfLoader::Placed> GltfLoader::walk() const {
         if (seen[index])
             document_.fail(where, "is reached twice: the nodes form a cycle or share a child");
         seen[index] = true;
-        next.world = next.world * local_matrix(model_.nodes[index], document_, where);
-        push(model_.nodes[index].children, next.world);
+        const tinygltf::Node& node = model_.nodes[index];
+        next.world = next.world * local_matrix(node, document_, where);
+        next.moves = next.moves || animation_.moves(next.node);
+        if (next.kept == nullptr &&
+            std::ranges::find(options_.kept_nodes, node.name) != options_.kept_nodes.end())
+            next.kept = &node.name;
         placed.push_back(next);
+        next.parent = placed.size() - 1;
+        push(node.children, next);
     }
     return placed;
+}
+
+// Nodes of Scene::motion for those that move and carry a mesh, and for all above them.
+void GltfLoader::add_motion(std::vector<Placed>& nodes) {
+    std::vector<bool> carries(nodes.size()), wanted(nodes.size());
+    for (std::size_t i = nodes.size(); i-- > 0;) { // children come after their parents
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(nodes[i].node)];
+        carries[i] = carries[i] || node.mesh >= 0;
+        wanted[i] = wanted[i] || (nodes[i].moves && carries[i]);
+        if (nodes[i].parent == kNoParent)
+            continue;
+        carries[nodes[i].parent] = carries[nodes[i].parent] || carries[i];
+        wanted[nodes[i].parent] = wanted[nodes[i].parent] || wanted[i];
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(nodes[i].node)];
+        if (nodes[i].moves && (node.camera >= 0 || node.extensions.contains("KHR_lights_punctual")))
+            meshes_.note("cameras and lights do not move with their nodes");
+        if (!wanted[i])
+            continue;
+        nodes[i].moving = static_cast<std::uint32_t>(scene_.motion.nodes.size());
+        scene_.motion.nodes.push_back(animation_.node(nodes[i].node));
+        if (nodes[i].parent != kNoParent)
+            scene_.motion.nodes.back().parent = nodes[nodes[i].parent].moving;
+    }
+    if (!scene_.motion.nodes.empty())
+        scene_.motion.period = animation_.last_frame();
 }
 
 void GltfLoader::add_mesh(const Placed& placed, bool shared) {
@@ -136,14 +180,14 @@ void GltfLoader::add_mesh(const Placed& placed, bool shared) {
     if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
         document_.fail("node " + std::to_string(placed.node),
                        "mesh " + std::to_string(node.mesh) + " does not exist");
-    if (shared)
-        add_instance(node.mesh, placed.world, node.name);
+    if (shared || placed.moves || placed.kept != nullptr)
+        add_instance(node.mesh, placed);
     else
         for (const GltfPrimitive& primitive : meshes_.read(node.mesh))
             append(joined_[primitive.normals.empty() ? 0 : 1], primitive, placed.world);
 }
 
-void GltfLoader::add_instance(int mesh, const glm::dmat4& world, const std::string& name) {
+void GltfLoader::add_instance(int mesh, const Placed& placed) {
     const auto next = static_cast<std::uint32_t>(scene_.meshes.size());
     const auto [entry, is_new] = shared_.emplace(mesh, next);
     if (is_new) {
@@ -159,7 +203,16 @@ void GltfLoader::add_instance(int mesh, const glm::dmat4& world, const std::stri
         }
         scene_.meshes.push_back(std::move(joined));
     }
-    scene_.instances.push_back({entry->second, to_transform(world), name});
+    if (placed.moves) {
+        MovedInstance& moved = scene_.motion.instances.emplace_back();
+        moved.instance = static_cast<std::uint32_t>(scene_.instances.size());
+        moved.node = placed.moving;
+    }
+    const std::string& own = model_.nodes[static_cast<std::size_t>(placed.node)].name;
+    const std::string& name = placed.kept != nullptr ? *placed.kept
+                              : own.empty()          ? scene_.meshes[entry->second].name
+                                                     : own;
+    scene_.instances.push_back({entry->second, to_transform(placed.world), name});
 }
 
 void GltfLoader::add_joined() {
@@ -235,7 +288,8 @@ void GltfLoader::normalise_lights() {
 void GltfLoader::load() {
     scene_.warnings = document_.warnings();
     scene_.materials = gltf_materials(document_, textures_, scene_);
-    const std::vector<Placed> nodes = walk();
+    std::vector<Placed> nodes = walk();
+    add_motion(nodes);
     std::map<int, int> uses;
     for (const Placed& placed : nodes)
         ++uses[model_.nodes[static_cast<std::size_t>(placed.node)].mesh];
@@ -250,8 +304,11 @@ void GltfLoader::load() {
     }
     add_joined();
     normalise_lights();
-    if (!model_.animations.empty())
-        meshes_.note("animations are ignored");
+    if (animation_.left_out() > 0)
+        scene_.warnings.push_back(std::to_string(animation_.left_out()) +
+                                  " animations are left out");
+    if (animation_.has_weights())
+        meshes_.note("animations of morph targets are ignored");
     meshes_.report();
 }
 
@@ -263,7 +320,7 @@ Scene load_gltf(const std::string& bytes, const std::filesystem::path& path, boo
     Scene scene;
     scene.name = path.stem().string();
     scene.background = kDefaultSky;
-    GltfLoader(document, scene, options.textures).load();
+    GltfLoader(document, scene, options).load();
     return scene;
 }
 

@@ -19,7 +19,12 @@ struct LoadOptions {
     // environment variable MACULA_SCENE_PATH (separated by ':') follow these.
     std::vector<std::filesystem::path> search_path;
     std::uint64_t max_input_bytes = kDefaultMaxInputBytes; // for each file, unpacked
-    int nesting = 0;      // how many scene files led here; set by the loader
+    int nesting = 0; // how many scene files led here; set by the loader
+    // glTF: nodes of these names, with what is below them, become instances of these names.
+    std::vector<std::string> kept_nodes;
+    // glTF: an animation's name or its index; empty: the first, "none": none.
+    std::string animation;
+    float frame_rate = 60.0f; // glTF: frames a second of its animations, 1..1000
     bool textures = true; // false: every texture becomes the 1 x 1 white one (fast, for geometry)
 };
 

@@ -16,18 +16,19 @@ glm::quat between(const glm::quat& a, const glm::quat& b, float t) {
     return glm::slerp(a, b, t);
 }
 
-glm::vec3 finished(const glm::vec3& v) {
-    return v;
-}
-
-glm::quat finished(const glm::quat& q) {
-    return glm::normalize(q);
-}
-
 // Of the key at `i`; of `cubic` the one in the middle of three.
 template <typename T>
 const T& value_of(const Track<T>& track, std::size_t i) {
     return track.interpolation == Interpolation::cubic ? track.values[3 * i + 1] : track.values[i];
+}
+
+// A spline between opposite rotations may pass through none.
+glm::vec3 finished(const glm::vec3& v, const glm::vec3& /*nearest*/) {
+    return v;
+}
+
+glm::quat finished(const glm::quat& q, const glm::quat& nearest) {
+    return glm::length(q) > 1e-6f ? glm::normalize(q) : nearest;
 }
 
 // glTF 2.0, appendix C.5.
@@ -38,8 +39,9 @@ T cubic(const Track<T>& track, std::size_t i, float t) {
     const T &from = track.values[3 * i + 1], &leaving = track.values[3 * i + 2];
     const T &arriving = track.values[3 * i + 3], &to = track.values[3 * i + 4];
     return finished(from * (2.0f * t3 - 3.0f * t2 + 1.0f) +
-                    leaving * (frames * (t3 - 2.0f * t2 + t)) + to * (3.0f * t2 - 2.0f * t3) +
-                    arriving * (frames * (t3 - t2)));
+                        leaving * (frames * (t3 - 2.0f * t2 + t)) + to * (3.0f * t2 - 2.0f * t3) +
+                        arriving * (frames * (t3 - t2)),
+                    t < 0.5f ? from : to);
 }
 
 template <typename T>
@@ -88,12 +90,15 @@ void place_nodes(const Motion& motion, float frame, std::vector<glm::mat4>& worl
     }
 }
 
+Transform placed(const MovedInstance& moved, const std::vector<glm::mat4>& world_from_node) {
+    return transform_of(world_from_node[moved.node] * moved.node_from_object);
+}
+
 void place_instances(Scene& scene, float frame) {
     std::vector<glm::mat4> world_from_node;
     place_nodes(scene.motion, frame, world_from_node);
     for (const MovedInstance& moved : scene.motion.instances)
-        scene.instances[moved.instance].world_from_object =
-            transform_of(world_from_node[moved.node]);
+        scene.instances[moved.instance].world_from_object = placed(moved, world_from_node);
 }
 
 } // namespace macula::scene

@@ -42,10 +42,12 @@ struct MotionNode {
     Track<glm::vec3> scale;
 };
 
-// The instance's world_from_object is that of the node. Each instance at most once.
+// The instance's world_from_object is that of the node after `node_from_object`. Each instance at
+// most once.
 struct MovedInstance {
-    std::uint32_t instance = 0; // index into Scene::instances
-    std::uint32_t node = 0;     // index into Motion::nodes
+    std::uint32_t instance = 0;       // index into Scene::instances
+    std::uint32_t node = 0;           // index into Motion::nodes
+    glm::mat4 node_from_object{1.0f}; // affine
 };
 
 struct Motion {
@@ -58,6 +60,8 @@ struct Motion {
 // validate().
 void place_nodes(const Motion& motion, float frame, std::vector<glm::mat4>& world_from_node);
 Transform transform_of(const glm::mat4& affine);
+// Where the instance is when its nodes are there.
+Transform placed(const MovedInstance& moved, const std::vector<glm::mat4>& world_from_node);
 // Places the instances that key frames move as they are in `frame`.
 void place_instances(Scene& scene, float frame);
 

@@ -29,7 +29,7 @@ Mover::~Mover() = default;
 std::span<const Transform> Mover::at(std::uint32_t frame, const Observer& observer) {
     place_nodes(motion_, static_cast<float>(frame), world_from_node_);
     for (const MovedInstance& moved : motion_.instances)
-        transforms_[moved.instance] = transform_of(world_from_node_[moved.node]);
+        transforms_[moved.instance] = placed(moved, world_from_node_);
     if (world_)
         place_spheres(frame, observer);
     return transforms_;

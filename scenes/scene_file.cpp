@@ -6,6 +6,7 @@
 #include "scenes/display.hpp"
 #include "scenes/formats.hpp"
 #include "scenes/procedural/registry.hpp"
+#include "scenes/scene_motion.hpp"
 #include "scenes/scene_overrides.hpp"
 #include "scenes/toml_reader.hpp"
 
@@ -59,6 +60,7 @@ Scene load_named(const TomlTable& root, const std::filesystem::path& path,
         LoadOptions inner = options;
         if (++inner.nesting > kMaxNesting)
             root.fail("file", "scene files name each other in a circle");
+        read_motion_options(root, inner);
         return load_file(find_file(root, "file", *file, path, options), inner);
     }
     procedural::SceneParams params;
@@ -210,6 +212,7 @@ Scene load_scene_file(const std::string& text, const std::filesystem::path& path
     const float scale = root.number("scale", 1e-9, 1e9).value_or(1.0f);
     transform_scene(scene, up, scale);
     read_view(root, path, options, scene);
+    read_motion(root, scene);
     for (const TomlTable& table : root.tables("material"))
         override_material(table, scene);
     root.reject_unknown();

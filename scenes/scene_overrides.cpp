@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "scenes/mover.hpp"
+
 namespace macula::scene {
 namespace {
 
@@ -23,6 +25,31 @@ Transform turned(const Transform& t, UpAxis up, float scale) {
     return result;
 }
 
+glm::quat rotation_of(UpAxis up) {
+    if (up == UpAxis::y)
+        return {1.0f, 0.0f, 0.0f, 0.0f};
+    const float side = up == UpAxis::z ? -0.5f : 0.5f;
+    return {0.5f, side, side, side};
+}
+
+// What stands in the world is turned and scaled, and carries the rest with it.
+void transform_motion(Motion& motion, UpAxis up, float scale) {
+    const glm::quat rotation = rotation_of(up);
+    for (MotionNode& node : motion.nodes) {
+        if (node.parent != kNoNode)
+            continue;
+        node.rest.translation = turned(node.rest.translation, up) * scale;
+        node.rest.rotation = rotation * node.rest.rotation;
+        node.rest.scale *= scale;
+        for (glm::vec3& value : node.translation.values)
+            value = turned(value, up) * scale;
+        for (glm::quat& value : node.rotation.values)
+            value = rotation * value;
+        for (glm::vec3& value : node.scale.values)
+            value *= scale;
+    }
+}
+
 template <typename T>
 void assign(T& target, const std::optional<T>& value) {
     if (value)
@@ -38,6 +65,8 @@ void transform_scene(Scene& scene, UpAxis up, float scale) {
     for (const Instance& instance : scene.instances)
         if (!instance.world_from_object.is_identity() && instance.mesh < in_place.size())
             in_place[instance.mesh] = false;
+    for (const std::uint32_t moving : moving_instances(scene))
+        in_place[scene.instances[moving].mesh] = false;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         if (!in_place[m])
             continue;
@@ -49,6 +78,7 @@ void transform_scene(Scene& scene, UpAxis up, float scale) {
     for (Instance& instance : scene.instances)
         if (instance.mesh < in_place.size() && !in_place[instance.mesh])
             instance.world_from_object = turned(instance.world_from_object, up, scale);
+    transform_motion(scene.motion, up, scale);
     for (Light& light : scene.lights) {
         light.position = turned(light.position, up) * scale;
         light.direction = turned(light.direction, up);

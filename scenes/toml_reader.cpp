@@ -162,6 +162,35 @@ std::optional<glm::vec3> TomlTable::colour(std::string_view key, double hi) cons
     return result;
 }
 
+std::optional<glm::vec3> TomlTable::factors(std::string_view key, double lo, double hi) const {
+    if (!has(key))
+        return std::nullopt;
+    const glm::vec3 result = node_->table->get(key)->is_number()
+                                 ? glm::vec3(*number(key, -kMaxCoordinate, kMaxCoordinate))
+                                 : *vec3(key);
+    for (int i = 0; i < 3; ++i)
+        if (!(std::fabs(result[i]) >= static_cast<float>(lo) &&
+              std::fabs(result[i]) <= static_cast<float>(hi)))
+            fail(key, "a size between " + spelled(lo) + " and " + spelled(hi) + " was expected");
+    return result;
+}
+
+std::vector<std::string> TomlTable::strings(std::string_view key) const {
+    if (!has(key))
+        return {};
+    const toml::array* array = node_->table->get_as<toml::array>(key);
+    if (array == nullptr)
+        return {*string(key)};
+    std::vector<std::string> result;
+    for (const toml::node& element : *array) {
+        const auto* value = element.as_string();
+        if (value == nullptr)
+            fail(key, "strings [\"a\", ...] were expected");
+        result.push_back(value->get());
+    }
+    return result;
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) const {
     if (!has(key))
         return std::nullopt;

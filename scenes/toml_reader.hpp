@@ -41,6 +41,10 @@ class TomlTable {
     std::optional<glm::vec3> vec3(std::string_view key) const;
     // [r, g, b] or one grey value, each in 0 .. hi; linear RGB.
     std::optional<glm::vec3> colour(std::string_view key, double hi) const;
+    // [x, y, z] or one number for all three, each between lo and hi (lo > 0) in size.
+    std::optional<glm::vec3> factors(std::string_view key, double lo, double hi) const;
+    // ["a", "b", ...] or "a"; empty when absent.
+    std::vector<std::string> strings(std::string_view key) const;
     std::optional<TomlTable> table(std::string_view key) const;
     std::vector<TomlTable> tables(std::string_view key) const; // [[key]]; empty when absent
 

@@ -5,6 +5,7 @@
 
 #include "scenes/defaults.hpp"
 #include "scenes/validate_mesh.hpp"
+#include "scenes/validate_motion.hpp"
 
 namespace macula::scene {
 namespace {
@@ -114,10 +115,17 @@ void drop_empty_meshes(Scene& scene) {
     scene.meshes = std::move(kept);
     if (dropped == 0)
         return;
-    std::erase_if(scene.instances,
-                  [&](const Instance& i) { return renumbered[i.mesh] == kNoTexture; });
-    for (Instance& instance : scene.instances)
-        instance.mesh = renumbered[instance.mesh];
+    std::vector<std::uint32_t> instances(scene.instances.size(), kNoTexture);
+    std::vector<Instance> placed;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        if (renumbered[scene.instances[i].mesh] == kNoTexture)
+            continue;
+        instances[i] = static_cast<std::uint32_t>(placed.size());
+        placed.push_back(std::move(scene.instances[i]));
+        placed.back().mesh = renumbered[placed.back().mesh];
+    }
+    scene.instances = std::move(placed);
+    renumber_moving(scene, instances);
     scene.warnings.push_back(std::to_string(dropped) + " meshes without triangles are left out");
 }
 
@@ -185,6 +193,7 @@ void validate(Scene& scene) {
     validate_textures(scene);
     validate_instances(scene);
     validate_meshes(scene);
+    validate_motion(scene);
     drop_empty_meshes(scene);
     if (scene.instances.empty())
         throw SceneError(scene.name + ": the scene has no triangles");

@@ -15,12 +15,13 @@ inline constexpr float kMaxTexcoord = 1e6f;
 inline constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 27;
 
 // Throws SceneError, naming mesh and triangle, on indices out of range, arrays of unequal length,
-// singular transforms, too many triangles, and a scene without any triangle. Mends, with counted
-// warnings: triangles with coordinates that are not finite (dropped), normals of zero length
-// (replaced by geometric ones) or of other than unit length (normalised), texture coordinates that
-// are not finite (0), parameters out of range (clamped), empty meshes (dropped, with their
-// instances). Degenerate triangles are counted and kept. Adds a material, a light and a camera
-// where there are none (defaults.hpp).
+// singular transforms, too many triangles, a scene without any triangle, and key frames or physics
+// that make no sense. Instances that key frames move are placed where frame 0 has them. Mends, with
+// counted warnings: triangles with coordinates that are not finite (dropped), normals of zero
+// length (replaced by geometric ones) or of other than unit length (normalised), texture
+// coordinates that are not finite (0), parameters out of range (clamped), empty meshes (dropped,
+// with their instances). Degenerate triangles are counted and kept. Adds a material, a light and a
+// camera where there are none (defaults.hpp).
 void validate(Scene& scene);
 
 } // namespace macula::scene

@@ -1,4 +1,4 @@
-/// `macula demo`: the pictures and the fly-through of ./demo, and what they took.
+/// `macula demo`: the pictures and the fly-throughs of ./demo, and what they took.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -35,6 +35,22 @@ constexpr Picture kPictures[] = {
     {"cornell", frame::LightMode::area, 512, 512, 0, 4},
 };
 
+// A third of the headset's pixels and a quarter of the screen's, along each axis.
+const app::FlyThrough kHall = {"atrium",
+                               "dk2",
+                               "394x488",
+                               "target:speed=60",
+                               60,
+                               48,
+                               {"full", "weier", "lowres", "logpolar+taa+upscale"}};
+const app::FlyThrough kMoving = {"whitted_moving",
+                                 "desktop_1080p",
+                                 "480x270",
+                                 "target:speed=30",
+                                 30,
+                                 48,
+                                 {"full", "weier", "rrm", "logpolar+taa+upscale"}};
+
 void print_row(const Picture& picture, const render::Renderer& renderer,
                const render::FrameReport& report) {
     const auto& geometry = renderer.geometry();
@@ -70,7 +86,8 @@ int run(const Options& options) {
         files.write(renderer, picture.frame);
         print_row(picture, renderer, report);
     }
-    app::fly_through({}, device, options.out / "fly-through");
+    app::fly_through(kHall, device, options.out / "fly-through");
+    app::fly_through(kMoving, device, options.out / "moving");
     fmt::print("pictures: {}\n", std::filesystem::absolute(options.out).string());
     return 0;
 }
@@ -83,6 +100,6 @@ app::Run add(CLI::App& command) {
 }
 
 const app::Command
-    command("demo", "Render the demo pictures and fly-through, and print what they took", add);
+    command("demo", "Render the demo pictures and fly-throughs, and print what they took", add);
 
 } // namespace

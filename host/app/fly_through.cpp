@@ -1,7 +1,6 @@
 #include "host/app/fly_through.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -17,8 +16,7 @@
 namespace macula::app {
 namespace {
 
-constexpr std::array kMethods = {"full", "weier", "lowres", "logpolar+taa+upscale"};
-constexpr std::uint32_t kColumns = 2;    // of the pictures side by side; of the sheet all in a row
+constexpr std::uint32_t kColumns = 2; // of the pictures side by side; of the sheet all in a row
 // Of logpolar: the thesis's 4 is for pictures of three times this size along each axis.
 constexpr float kAlpha = 1.5f;
 constexpr std::uint32_t kSheetEvery = 8; // frames between the contact sheet's rows
@@ -28,13 +26,15 @@ class Flight {
     Flight(const FlyThrough& options, const compute::Device& device,
            const std::filesystem::path& out)
         : options_(options), device_(device), out_(out), scene_(scene::load(options.scene)),
-          views_(view_options(options), scene_) {}
+          views_(view_options(options), scene_), ms_(options.methods.size()),
+          samples_(options.methods.size()) {}
 
     void run() {
-        measure_share();
+        if (std::ranges::find(options_.methods, std::string("lowres")) != options_.methods.end())
+            measure_share();
         std::vector<render::Renderer> renderers;
         std::vector<FrameFiles> files;
-        for (const char* method : kMethods) {
+        for (const char* method : options_.methods) {
             renderers.push_back(make(method));
             files.emplace_back(out_ / method, std::vector<std::string>{"png"},
                                std::vector<std::string>{}, 1.0f,
@@ -44,7 +44,7 @@ class Flight {
         }
         std::filesystem::create_directories(out_ / "side_by_side");
         const auto height = views_.display().height;
-        const auto columns = static_cast<std::uint32_t>(kMethods.size());
+        const auto columns = static_cast<std::uint32_t>(options_.methods.size());
         Collage sheet(columns * (views_.display().width / 2), height / 2 * sheet_rows());
         for (std::uint32_t i = 0; i < options_.frames; ++i)
             fly(renderers, files, i, sheet);
@@ -104,8 +104,8 @@ class Flight {
         const std::uint32_t frame = options_.first + i;
         const scene::Display& display = views_.display();
         Collage grid(kColumns * display.width,
-                     (kMethods.size() + kColumns - 1) / kColumns * display.height);
-        for (std::size_t m = 0; m < kMethods.size(); ++m) {
+                     (options_.methods.size() + kColumns - 1) / kColumns * display.height);
+        for (std::size_t m = 0; m < options_.methods.size(); ++m) {
             const render::FrameReport report = render(renderers[m], frame);
             double ms = 0.0;
             for (const frame::StageTime& stage : report.stages)
@@ -146,8 +146,8 @@ class Flight {
                    options_.scene, options_.frames, width, height, views_.gaze_source());
         fmt::print("{:<21} {:>14} {:>14} {:>10}\n", "method", "samples/pixel", "ms (median)",
                    "speed-up");
-        for (std::size_t m = 0; m < kMethods.size(); ++m)
-            fmt::print("{:<21} {:>14.3f} {:>14.2f} {:>10.2f}\n", kMethods[m],
+        for (std::size_t m = 0; m < options_.methods.size(); ++m)
+            fmt::print("{:<21} {:>14.3f} {:>14.2f} {:>10.2f}\n", options_.methods[m],
                        samples_[m] / (static_cast<double>(options_.frames) * width * height),
                        metric::median(ms_[m]), metric::median(metric::ratios(ms_[0], ms_[m])));
     }
@@ -157,9 +157,9 @@ class Flight {
     std::filesystem::path out_;
     scene::Scene scene_;
     Views views_;
-    double share_ = 0.2; // of the pixels, until it is measured
-    std::array<std::vector<double>, kMethods.size()> ms_;
-    std::array<double, kMethods.size()> samples_{};
+    double share_ = 0.2;                  // of the pixels, until it is measured
+    std::vector<std::vector<double>> ms_; // by method
+    std::vector<double> samples_;
 };
 
 } // namespace

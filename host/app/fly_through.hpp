@@ -1,25 +1,26 @@
-/// The demo's fly-through: `full`, `weier`, `lowres` and `logpolar+taa+upscale` along the same path
-/// with the same gaze.
+/// The demo's fly-throughs: several methods along the same path with the same gaze.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "host/cl/device.hpp"
 
 namespace macula::app {
 
 struct FlyThrough {
-    const char* scene = "atrium";
-    const char* display = "dk2";  // its middle eye
-    const char* size = "394x488"; // pixels: a third of the display's
-    const char* gaze = "target:speed=60";
-    std::uint32_t first = 60, frames = 48; // of the scene's path
+    const char* scene;
+    const char* display; // its middle eye
+    const char* size;    // pixels
+    const char* gaze;
+    std::uint32_t first, frames;      // of the scene's path
+    std::vector<const char*> methods; // the first is what the others are measured against
 };
 
-/// Writes PNG frames of each method, of the four side by side with the gaze marked, and a contact
-/// sheet into `out`, and prints what the methods took. `lowres` gets as many samples as `weier`
-/// took on average. Throws std::runtime_error where a file cannot be written.
+/// Writes PNG frames of each method, of all side by side (two in a row) with the gaze marked, and a
+/// contact sheet into `out`, and prints what the methods took. `lowres` gets as many samples as
+/// `weier` takes on average. Throws std::runtime_error where a file cannot be written.
 void fly_through(const FlyThrough& flight, const compute::Device& device,
                  const std::filesystem::path& out);
 

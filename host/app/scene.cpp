@@ -2,6 +2,7 @@
 #include "bvh/bvh.hpp"
 #include "host/app/command.hpp"
 #include "scenes/load.hpp"
+#include "scenes/mover.hpp"
 #include "scenes/procedural/registry.hpp"
 
 #include <CLI/App.hpp>
@@ -136,6 +137,31 @@ ordered_json cameras_json(const scene::Scene& s) {
     return list;
 }
 
+std::size_t keys_of(const scene::MotionNode& node) {
+    return node.translation.frames.size() + node.rotation.frames.size() + node.scale.frames.size();
+}
+
+ordered_json motion_json(const scene::Scene& s) {
+    std::size_t keys = 0;
+    for (const scene::MotionNode& node : s.motion.nodes)
+        keys += keys_of(node);
+    ordered_json moving = ordered_json::array();
+    for (const std::uint32_t instance : scene::moving_instances(s))
+        moving.push_back(s.instances[instance].name);
+    return {{"instances", moving},
+            {"nodes", s.motion.nodes.size()},
+            {"keys", keys},
+            {"period", s.motion.period},
+            {"spheres", s.physics ? s.physics->spheres.size() : 0}};
+}
+
+ordered_json instance_names(const scene::Scene& s) {
+    ordered_json names = ordered_json::array();
+    for (const scene::Instance& instance : s.instances)
+        names.push_back(instance.name);
+    return names;
+}
+
 /// Builds the SBVH of every mesh; totals over meshes, the cost and the depth of the largest.
 ordered_json bvh_json(const scene::Scene& s) {
     std::uint64_t nodes = 0, triangles = 0, largest = 0;
@@ -199,6 +225,8 @@ ordered_json describe(const Options& options) {
         {"lights", lights_json(s)},
         {"cameras", cameras_json(s)},
         {"path", {{"keys", s.path.keys.size()}, {"frames", s.path.frames}}}};
+    document["instance_names"] = instance_names(s);
+    document["motion"] = motion_json(s);
     document["display"] = s.display ? ordered_json(*s.display) : ordered_json();
     document["gaze"] = s.gaze ? ordered_json(*s.gaze) : ordered_json();
     if (options.bvh)
@@ -230,6 +258,31 @@ void print_list(const ordered_json& d) {
         fmt::print("  {:<48} {} x {}, {} levels{}\n", t["name"].get<std::string>(),
                    t["width"].get<std::uint32_t>(), t["height"].get<std::uint32_t>(),
                    t["levels"].get<std::size_t>(), t["alpha"].get<bool>() ? ", alpha" : "");
+}
+
+/// The first few of a list of names.
+std::string few(const ordered_json& names) {
+    constexpr std::size_t kMost = 12;
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < kMost; ++i)
+        text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i].get<std::string>());
+    return text + (names.size() > kMost ? ", ..." : "");
+}
+
+void print_motion(const ordered_json& d) {
+    fmt::print("instances    {}\n", few(d["instance_names"]));
+    const ordered_json& motion = d["motion"];
+    if (motion["instances"].empty())
+        return;
+    fmt::print("moving       {}\n", few(motion["instances"]));
+    if (motion["nodes"].get<std::size_t>() > 0)
+        fmt::print("motion       {} nodes, {} keys, {}\n", motion["nodes"].get<std::size_t>(),
+                   motion["keys"].get<std::size_t>(),
+                   motion["period"].get<float>() > 0.0f
+                       ? fmt::format("every {:g} frames again", motion["period"].get<float>())
+                       : "once");
+    if (motion["spheres"].get<std::size_t>() > 0)
+        fmt::print("physics      {} spheres\n", motion["spheres"].get<std::size_t>());
 }
 
 void print_view(const ordered_json& d) {
@@ -266,6 +319,7 @@ void print(const ordered_json& d) {
             b["build_seconds"].get<double>());
     }
     print_view(d);
+    print_motion(d);
     fmt::print("materials\n");
     print_list(d);
     for (const ordered_json& warning : d["warnings"])

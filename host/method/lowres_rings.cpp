@@ -10,9 +10,10 @@
 
 namespace macula::method {
 
-frame::Graph make_lowres_rings(const stage::Kit& kit, const Options& options) {
+frame::Graph make_lowres_rings(const stage::Kit& all, const Options& options) {
     const bool occlusion = options.lights == frame::LightMode::ambient_occlusion;
-    const stage::RingKit rings{kit, stage::make_params(options.rings)};
+    const stage::RingKit rings(all, options.rings);
+    const stage::Kit& kit = rings.kit;
     frame::Graph graph("lowres_rings",
                        "blocks of pixels that grow in rings around the gaze, blurred");
     graph.add(stage::place_rings(rings)).add(stage::choose_blocks(rings));

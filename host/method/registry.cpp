@@ -29,6 +29,8 @@ constexpr std::array kMethods = {
            make_lowres_rings},
     Method{"rrm", "the fovea in every frame, the rest in turns (Smith et al. 2014)", make_rrm},
     Method{"weier", "foveated samples and a reprojected cache (Weier et al. 2016)", make_weier},
+    Method{"weier+upscale", "the same at fewer pixels, enlarged over frames", make_weier, false,
+           true},
 };
 
 } // namespace

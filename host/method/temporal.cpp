@@ -58,10 +58,13 @@ frame::Graph Method::make(const stage::Kit& kit, const Options& options) const {
     if (!antialiased && !upscaled)
         return graph;
     const std::vector<std::string> made = graph.resources();
-    const bool foveated = std::find(made.begin(), made.end(), "fovea") != made.end();
+    const auto makes = [&](const char* what) {
+        return std::find(made.begin(), made.end(), what) != made.end();
+    };
+    const bool foveated = makes("fovea");
     const TemporalOptions& t = options.temporal;
-    const stage::TemporalKit temporal{kit,      foveated,     antialiased,
-                                      upscaled, t.frame_rate, t.sharpness};
+    const stage::TemporalKit temporal{kit,          foveated,    antialiased,          upscaled,
+                                      t.frame_rate, t.sharpness, makes("fresh pixels")};
     if (!foveated)
         graph.add(stage::follow_surfaces(temporal));
     if (antialiased)

@@ -84,7 +84,8 @@ frame::Graph make_weier(const stage::Kit& kit, const Options& options) {
     if (foveated.can_move())
         graph.add(stage::find_change(foveated, light.noise()));
     graph.add(stage::merge_cache(foveated, catch_up, light.image, light.bytes))
-        .add(stage::show_intermediates(foveated));
+        .add(stage::show_intermediates(foveated))
+        .add(stage::place_surfaces(foveated));
     if (options.weier.overlay)
         graph.add(stage::draw_overlay(foveated));
     return graph;

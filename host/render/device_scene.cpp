@@ -27,11 +27,11 @@ void DeviceScene::begin_frame(std::uint64_t count, std::uint32_t frame,
         return;
     if (mover_.moves())
         set_transforms(mover_.at(frame, observer));
-    const bool first = frames_ == 0;
-    for (int i = 0; i < (first ? 2 : 1) && frames_to_place_ > 0; ++i) { // nothing moved before it
+    for (int i = 0; i < (forget_motion_ ? 2 : 1) && frames_to_place_ > 0; ++i) {
         place();
         --frames_to_place_;
     }
+    forget_motion_ = false;
     frames_ = count;
 }
 

@@ -36,6 +36,10 @@ class DeviceScene {
     // `frame`. Whoever comes first moves what is to be moved; the others then see the same frame.
     void begin_frame(std::uint64_t count, std::uint32_t frame, const scene::Observer& observer);
 
+    // What moves in the next frame has no motion in it, as in the first one. For all renderers:
+    // views that share a scene begin anew together.
+    void forget_motion() { forget_motion_ = true; }
+
     compute::Device device;
     kernel::Library library;
     frame::DeviceGeometry geometry; // without the blended triangles
@@ -55,6 +59,7 @@ class DeviceScene {
     // Frames for which the transforms must still be set: the one in which something moved, and the
     // one after it, whose last frame's transforms are then its own.
     int frames_to_place_ = 0;
+    bool forget_motion_ = true; // there is no last frame
 };
 
 } // namespace macula::render

@@ -272,6 +272,7 @@ void Renderer::set_transforms(std::span<const scene::Transform> world_from_objec
 void Renderer::reset() {
     state_->last_camera.reset();
     state_->graph.forget();
+    state_->on_device->forget_motion();
 }
 
 const Options& Renderer::options() const {

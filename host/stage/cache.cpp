@@ -1,5 +1,7 @@
 #include "host/stage/cache.hpp"
 
+#include "shared/planes.h"
+
 namespace macula::stage {
 namespace {
 
@@ -149,6 +151,35 @@ frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::strin
                      run["surface depth"], lit ? run["sampled light"] : none, run[kit.image],
                      run["cache info"], lit ? run[light] : none, run["reprojected colour"])
                 .launch(name, {compute::Range::cover(merge_items(kit.kit), group)}, {group});
+        };
+    };
+    return stage;
+}
+
+frame::Stage place_surfaces(const FoveatedKit& kit) {
+    frame::Stage stage;
+    stage.name = "place surfaces";
+    stage.reads = {"mesh cells", "pixel keys",    "history kept",  "sampling masks",
+                   "ray count",  "pixel of slot", "surface depth", "surface motion"};
+    stage.writes = {{"surface planes", 4 * MACULA_SURFACE_PLANES, kit.kit.pixels()},
+                    per_pixel(kit.kit, "fresh pixels", 4)};
+    stage.prepare = [kit, name = stage.name] {
+        kit.grid->prepare(kit.kit);
+        auto mesh = kit.kit.library.kernel(kernel::VariantKey("cache/surfaces"),
+                                           "place_mesh_surfaces", kit.kit.device);
+        auto samples = kit.kit.library.kernel(kernel::VariantKey("upscale/surfaces"),
+                                              "place_surfaces", kit.kit.device);
+        return [kit, name, mesh, samples](frame::Run& run) mutable {
+            const SupportGrid& grid = *kit.grid;
+            mesh.set(run.params_buffer(), grid.params_buffer, grid.mesh_columns, grid.mesh_rows,
+                     run["mesh cells"], run["pixel keys"], run["history kept"],
+                     run["sampling masks"], run["surface planes"], run["fresh pixels"])
+                .launch(name, {kit.packets()}, {kGroup});
+            samples
+                .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
+                     run["surface depth"], run["surface motion"], run["surface planes"],
+                     compute::Buffer())
+                .launch(name, {kit.kit.slots()}, {kGroup});
         };
     };
     return stage;

@@ -25,4 +25,8 @@ frame::Stage find_change(const FoveatedKit& kit, std::uint32_t noise);
 frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::string& light,
                          std::uint32_t light_bytes);
 
+// For what gathers frames: "surface planes" (shared/planes.h), a sample's own or its history's, and
+// "fresh pixels" (float a pixel): 1 where it is this frame's sample as it is, else 0.
+frame::Stage place_surfaces(const FoveatedKit& kit);
+
 } // namespace macula::stage

@@ -59,6 +59,12 @@ std::uint64_t count_blocks(const shared::FrameParams& frame, const shared::RingP
     return count;
 }
 
+RingKit::RingKit(const Kit& all, const RingOptions& options)
+    : kit(all), params(make_params(options)),
+      used_slots(std::make_shared<std::uint32_t>(all.slots())) {
+    kit.used_slots = used_slots;
+}
+
 std::uint32_t RingKit::packets() const {
     return kit.slots() / MACULA_RAY_BLOCK;
 }
@@ -72,7 +78,12 @@ frame::Stage place_rings(const RingKit& kit) {
             kit.kit.device.upload(std::span(&kit.params, 1), "parameters of the method");
         auto kernel =
             kit.kit.library.kernel(kernel::VariantKey(kGenerate), "place_rings", kit.kit.device);
-        return [params, name, kernel](frame::Run& run) mutable {
+        return [kit, params, name, kernel](frame::Run& run) mutable {
+            // As many as the device will list: both compute the same edges.
+            const std::uint64_t groups =
+                (count_blocks(run.params(), kit.params) + kGroup - 1) / kGroup;
+            *kit.used_slots =
+                static_cast<std::uint32_t>(std::max<std::uint64_t>(groups, 1) * kGroup);
             kernel.set(run.params_buffer(), params, run["rings"]).launch(name, {1}, {1});
         };
     };

@@ -29,8 +29,12 @@ shared::RingParams make_params(const RingOptions& options);
 std::uint64_t count_blocks(const shared::FrameParams& frame, const shared::RingParams& params);
 
 struct RingKit {
+    // `all`: without used_slots, which place_rings() sets for each frame.
+    RingKit(const Kit& all, const RingOptions& options);
+
     Kit kit;
     shared::RingParams params;
+    std::shared_ptr<std::uint32_t> used_slots; // the kit's
 
     std::uint32_t packets() const; // of 4 x 4 pixels
 };

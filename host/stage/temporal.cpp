@@ -166,6 +166,8 @@ frame::Stage upscale(const TemporalKit& kit) {
     stage.name = "upscale";
     stage.reads = {upscaled_from(kit), "followed motion"};
     stage.reads_last = {"upscaled planes"};
+    if (kit.cached)
+        stage.reads.emplace_back("fresh pixels");
     if (kit.foveated) {
         stage.reads.insert(stage.reads.end(), {"fovea", "sample spread"});
         stage.reads_last.emplace_back("fovea");
@@ -187,7 +189,8 @@ frame::Stage upscale(const TemporalKit& kit) {
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
                      kit.foveated ? run.last("fovea") : none, colours,
                      kit.foveated ? run["sample spread"] : none, run["followed motion"],
-                     run.last("upscaled planes"), run["upscaled planes"], run["upscaled colour"])
+                     run.last("upscaled planes"), kit.cached ? run["fresh pixels"] : none,
+                     run["upscaled planes"], run["upscaled colour"])
                 .launch(name, range, kit.kit.lane_group());
             sharpen
                 .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea, colours,

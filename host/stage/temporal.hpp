@@ -23,8 +23,9 @@ struct TemporalKit {
     bool foveated;    // the method has a "fovea" and follows its surfaces itself
     bool antialiased; // `antialias` is among its stages, and `upscale`
     bool upscaled;
-    float frame_rate; // frames a second
-    float sharpness;  // 0..1
+    float frame_rate;    // frames a second
+    float sharpness;     // 0..1
+    bool cached = false; // the method has "fresh pixels": others are means of many frames' samples
 };
 
 // "surface planes" -> "followed motion", none where the last frame saw another surface.

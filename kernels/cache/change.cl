@@ -77,8 +77,9 @@ measure_change(global const FrameParams* restrict frame, global const WeierParam
         difference[index] = ANOTHER_SURFACE;
         return;
     }
+    const float2 at = h.at + (float2)(frame->jitter[0], frame->jitter[1]);
     const Footing f = footing_at(
-        clamp(h.at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height)));
+        clamp(at, (float2)(0.0f), (float2)((float)frame->width, (float)frame->height)));
     difference[index] = difference_from(past_colour, frame->width, frame->height, &f,
                                         luminance_of(support_image[index]));
 }

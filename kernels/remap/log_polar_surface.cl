@@ -149,7 +149,8 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
         depths.least = beyond ? depths.least : nearest;
         depths.most = beyond ? depths.most : nearest;
         kept.least = beyond ? kept.least : nearest;
-        kept.most = beyond ? kept.most : own;
+        const Real behind = within ? seam_depth(&around, own, own_x, own_y) : own;
+        kept.most = beyond ? kept.most : behind;
         motion_x = beyond ? motion_x : (within ? around.motion_x : own_x);
         motion_y = beyond ? motion_y : (within ? around.motion_y : own_y);
         deviation = beyond ? deviation : zero;

@@ -124,5 +124,13 @@ kernel void show_rings(global const FrameParams* restrict frame,
     Real3 colour = mean_of_blocks(rings, width, cells, box, blocks);
     if (params->grid != 0u)
         colour = with_grid(rings, across, down, x, y, colour);
+#if MACULA_LANES == 16
+    if (x0 + 4u <= width && y0 + 4u <= height) {
+        const Slots4 rows = slots_of(colour, splat(1.0f));
+        for (uint row = 0u; row < 4u; ++row)
+            vstore16(rows.part[row], 0, (global float*)(image + (y0 + row) * width + x0));
+        return;
+    }
+#endif
     scatter4(image, inside ? down * width + across : splat_uint(0u), inside, colour, splat(1.0f));
 }

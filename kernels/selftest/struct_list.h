@@ -96,6 +96,8 @@
     MEMBER(WeierParams, support_width)                                                             \
     MEMBER(WeierParams, depth_bits)                                                                \
     MEMBER(WeierParams, first_frame_full)                                                          \
+    STRUCT(InstanceMotion)                                                                         \
+    MEMBER(InstanceMotion, motion)                                                                 \
     STRUCT(LensParams)                                                                             \
     MEMBER(LensParams, scale_x)                                                                    \
     MEMBER(LensParams, most)                                                                       \

@@ -13,7 +13,10 @@ kernel void follow_surfaces(global const FrameParams* restrict frame,
     const uint pixels = frame->width * frame->height;
     const Nearest n = nearest_surface(surfaces, pixels, &s);
     store_plane(range, &s, n.depth);
-    store_plane(range + pixels, &s, plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0));
+    const Real own = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
+    const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
+    const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
+    store_plane(range + pixels, &s, seam_depth(&n, own, x, y));
     const Depths depths = {n.depth, n.depth};
     store_followed(frame, &s, n.motion_x, n.motion_y, depths, past_range, followed);
 }

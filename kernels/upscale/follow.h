@@ -39,6 +39,18 @@ static inline Nearest nearest_surface(global const float* surfaces, uint pixels,
     return n;
 }
 
+/* Pixels of motion between an edge and what is behind it. */
+#define SEAM_MOTION 0.25f
+
+/* The depth beside the nearest one that the next frame may look for: the pixel's own, unless its
+ * history went with the nearest surface, which moves otherwise. What is uncovered there must not
+ * find it. */
+static inline Real seam_depth(const Nearest* nearest, Real own, Real motion_x, Real motion_y) {
+    const Real apart =
+        m_max(fabs(nearest->motion_x - motion_x), fabs(nearest->motion_y - motion_y));
+    return apart > splat(SEAM_MOTION) ? nearest->depth : own;
+}
+
 /* The depth that the surface had in the last frame if it stood still. */
 static inline Real past_depth(global const FrameParams* frame, const Strip* s, Real depth) {
     global const Camera *now = &frame->camera, *then = &frame->previous_camera;

@@ -80,7 +80,9 @@ void Rails::bob(std::uint32_t node, int count, float height) {
 }
 
 void Rails::carry(std::uint32_t node, std::uint32_t mesh, const std::string& name) {
-    scene_.motion.instances.push_back({static_cast<std::uint32_t>(scene_.instances.size()), node});
+    MovedInstance& moved = scene_.motion.instances.emplace_back();
+    moved.instance = static_cast<std::uint32_t>(scene_.instances.size());
+    moved.node = node;
     scene_.instances.push_back({mesh, {}, name});
 }
 

@@ -68,10 +68,10 @@ void add_whitted_view(Scene& scene) {
     scene.cameras.push_back({"classic", {0.2f, 2.0f, 7.2f}, {0.3f, 1.35f, 0.0f}, {0, 1, 0}, 42.0f});
 }
 
-CameraPath round_tour(glm::vec2 mean, glm::vec2 dip) {
+CameraPath round_tour(float height, glm::vec2 mean, glm::vec2 dip) {
     constexpr int kPoints = 12;
     std::vector<Waypoint> waypoints;
-    const glm::vec3 middle{0.6f, 1.3f, -0.1f};
+    const glm::vec3 middle{0.6f, height, -0.1f};
     for (int i = 0; i < kPoints; ++i) {
         const float turn = static_cast<float>(i) / kPoints;
         const glm::vec2 round = sin_cos_turns(turn + 0.25f), wave = sin_cos_turns(2.0f * turn);
@@ -91,7 +91,7 @@ Scene make_whitted(const SceneParams&) {
     sphere(b, kMirrorCentre, kMirrorRadius, kSphereCells, {add_mirror(scene), 1.0f});
     scene.meshes.push_back(b.take());
     add_whitted_view(scene);
-    scene.path = round_tour({5.2f, 2.1f}, {1.4f, 1.3f});
+    scene.path = round_tour(1.3f, {5.2f, 2.1f}, {1.4f, 1.3f});
     return scene;
 }
 

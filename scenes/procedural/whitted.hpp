@@ -15,8 +15,8 @@ std::uint32_t add_mirror(Scene& scene);
 void add_board(MeshBuilder& b, Scene& scene);
 // The light, the sky and the classic camera.
 void add_whitted_view(Scene& scene);
-// Once round both spheres, dipping between them and the board. Of a cosine that dips twice a
-// round: distance and height lie about `mean` by `dip` (x: distance, y: height).
-CameraPath round_tour(glm::vec2 mean, glm::vec2 dip);
+// Once round both spheres, looking at their middle at this height and dipping twice: the eye's
+// distance from there (x) and its height (y) lie about `mean` by `dip`.
+CameraPath round_tour(float height, glm::vec2 mean, glm::vec2 dip);
 
 } // namespace macula::scene::procedural

@@ -156,7 +156,7 @@ Scene make_whitted_moving(const SceneParams& params) {
     add_globe_and_moon(scene, rails, seed);
     add_box(scene, rails, seed);
     add_whitted_view(scene);
-    scene.path = round_tour({6.9f, 2.3f}, {0.5f, 0.9f});
+    scene.path = round_tour(1.75f, {9.0f, 3.1f}, {0.6f, 1.0f});
     return scene;
 }
 

@@ -91,14 +91,17 @@ TEST(RenderSize, IsThePictureDividedByTheRatio) {
 }
 
 TEST(Upscale, ByOneWithoutJitterReturnsItsInput) {
-    WeierSetup setup = of_method("full+upscale");
-    setup.temporal.ratio = 1.0f;
-    setup.jitter = false;
-    WeierFrames frames(device(), cornell(), setup);
-    for (std::uint32_t frame = 0; frame < 4; ++frame) {
-        frames.run(frame, moved(cornell(), {0.02f * float(frame / 2), 0, 0}));
-        EXPECT_TRUE(same_bits(frames.read<Float4>(frames.picture()), frames.read<Float4>("colour")))
-            << "frame " << frame;
+    for (const char* method : {"full+upscale", "weier+upscale"}) {
+        WeierSetup setup = of_method(method);
+        setup.temporal.ratio = 1.0f;
+        setup.jitter = false;
+        WeierFrames frames(device(), cornell(), setup);
+        for (std::uint32_t frame = 0; frame < 4; ++frame) {
+            frames.run(frame, moved(cornell(), {0.02f * float(frame / 2), 0, 0}));
+            EXPECT_TRUE(
+                same_bits(frames.read<Float4>(frames.picture()), frames.read<Float4>("colour")))
+                << method << ", frame " << frame;
+        }
     }
 }
 
@@ -159,6 +162,40 @@ TEST(Upscale, OfAStillViewComesCloserToTheTruthThanAPictureOfOneSample) {
     EXPECT_LT(errors[15], 0.7 * errors[0]);
     EXPECT_LT(errors[63], errors[15]);
     EXPECT_LT(errors[63], mean_error(full.read<Float4>("colour"), reference));
+}
+
+TEST(Upscale, AfterMethodWeierConvergesInAStillView) {
+    WeierSetup setup = of_method("weier+upscale");
+    WeierFrames frames(device(), cornell(), setup);
+    setup.method = "full";
+    setup.samples_per_pixel = 64;
+    WeierFrames truth(device(), cornell(), setup);
+    truth.run(0, cornell().cameras.front());
+    const Picture reference = truth.read<Float4>("colour");
+    std::vector<double> errors;
+    for (std::uint32_t frame = 0; frame < 64; ++frame) {
+        frames.run(frame, cornell().cameras.front());
+        errors.push_back(mean_error(frames.read<Float4>(frames.picture()), reference));
+    }
+    EXPECT_LT(errors[15], 0.9 * errors[0]);
+    EXPECT_LT(errors[63], errors[15]);
+}
+
+TEST(Upscale, AfterAFullFovealRegionIsThatAfterMethodFullBitForBit) {
+    WeierSetup setup = of_method("weier+upscale");
+    setup.weier.r0 = setup.weier.r1 = INFINITY;
+    setup.weier.p_min = 1.0f;
+    WeierFrames foveated(device(), cornell(), setup);
+    setup.method = "full+upscale";
+    WeierFrames full(device(), cornell(), setup);
+    for (std::uint32_t frame = 0; frame < 5; ++frame) {
+        const scene::Camera view = moved(cornell(), {0.02f * float(frame / 2), 0, 0});
+        foveated.run(frame, view);
+        full.run(frame, view);
+        EXPECT_TRUE(
+            same_bits(foveated.read<Float4>(foveated.picture()), full.read<Float4>(full.picture())))
+            << "frame " << frame;
+    }
 }
 
 // A red board in front of a blue wall.
@@ -328,7 +365,8 @@ TEST_P(EachMode, OneAndSixteenLanesGiveTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, EachMode,
                          testing::Values("logpolar+taa", "logpolar+upscale", "logpolar+taa+upscale",
-                                         "full+upscale", "logrect+taa", "logrect+taa+upscale"),
+                                         "full+upscale", "logrect+taa", "logrect+taa+upscale",
+                                         "weier+upscale"),
                          [](const auto& mode) {
                              std::string name = mode.param;
                              std::replace(name.begin(), name.end(), '+', '_');

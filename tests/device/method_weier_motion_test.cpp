@@ -103,14 +103,18 @@ class PanelOnItsWay {
         step_ = pixels_a_frame * pixel;
     }
 
-    void run(std::uint32_t frame) {
+    // `walking`: the eye goes to the left instead, and the panel stands still.
+    void run(std::uint32_t frame, bool walking = false) {
         const float x = step_ * (float(frame) - 6.0f);
-        const std::vector<scene::Transform> places = {{}, moved_by({x, 0, 0})};
+        const std::vector<scene::Transform> places = {{}, moved_by({walking ? 0 : x, 0, 0})};
+        scene::Camera view = scene.cameras.front();
+        view.eye.x -= walking ? x : 0;
+        view.target.x -= walking ? x : 0;
         for (WeierFrames* frames : {&foveated, &full}) {
             if (frame == 0)
                 frames->place(places); // nothing moved before the first frame
             frames->place(places);
-            frames->run(frame, scene.cameras.front());
+            frames->run(frame, view);
         }
         shown = foveated.read<Float4>("colour");
         truth = full.read<Float4>("colour");
@@ -163,6 +167,26 @@ TEST_P(EachSpeed, NoHistoryStaysBehindTheObject) {
             wrong += is_red(way.shown[i]) != is_red(way.truth[i]);
         EXPECT_EQ(wrong, 0u) << "frame " << frame;
     }
+}
+
+double mean_error(const std::vector<Float4>& a, const std::vector<Float4>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += std::abs(a[i].x - b[i].x) + std::abs(a[i].y - b[i].y) + std::abs(a[i].z - b[i].z);
+    return sum / (3.0 * double(a.size()));
+}
+
+TEST_P(EachSpeed, AMovingObjectCostsNoMoreThanAMovingEye) {
+    double errors[2] = {0.0, 0.0};
+    for (const bool walking : {false, true}) {
+        PanelOnItsWay way(peripheral(), panel_before_a_wall(-6.0f), GetParam());
+        for (std::uint32_t frame = 0; frame < 12; ++frame) {
+            way.run(frame, walking);
+            errors[walking ? 1 : 0] += mean_error(way.shown, way.truth);
+        }
+    }
+    EXPECT_GT(errors[1], 0.0);
+    EXPECT_LT(errors[0], errors[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(PixelsAFrame, EachSpeed, testing::Values(0.25f, 1.5f, 4.0f, 9.0f));
