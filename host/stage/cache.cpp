@@ -159,8 +159,9 @@ frame::Stage merge_cache(const FoveatedKit& kit, bool catch_up, const std::strin
 frame::Stage place_surfaces(const FoveatedKit& kit) {
     frame::Stage stage;
     stage.name = "place surfaces";
-    stage.reads = {"mesh cells", "pixel keys",    "history kept",  "sampling masks",
-                   "ray count",  "pixel of slot", "surface depth", "surface motion"};
+    stage.reads = {"mesh cells",     "pixel keys",     "history kept",
+                   "sampling masks", "ray count",      "pixel of slot",
+                   "surface depth",  "surface motion", "surface geometric normal"};
     stage.writes = {{"surface planes", 4 * MACULA_SURFACE_PLANES, kit.kit.pixels()},
                     per_pixel(kit.kit, "fresh pixels", 4)};
     stage.prepare = [kit, name = stage.name] {
@@ -177,8 +178,8 @@ frame::Stage place_surfaces(const FoveatedKit& kit) {
                 .launch(name, {kit.packets()}, {kGroup});
             samples
                 .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
-                     run["surface depth"], run["surface motion"], run["surface planes"],
-                     compute::Buffer())
+                     run["surface depth"], run["surface motion"], run["surface geometric normal"],
+                     run["surface planes"], compute::Buffer())
                 .launch(name, {kit.kit.slots()}, {kGroup});
         };
     };

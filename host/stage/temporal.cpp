@@ -26,7 +26,8 @@ frame::Resource planes(const Kit& kit, const std::string& name, std::uint32_t co
 frame::Stage place(const Kit& kit, const frame::Resource& to, const std::string& texels) {
     frame::Stage stage;
     stage.name = "place surfaces";
-    stage.reads = {"ray count", "pixel of slot", "surface depth", "surface motion"};
+    stage.reads = {"ray count", "pixel of slot", "surface depth", "surface motion",
+                   "surface geometric normal"};
     stage.writes = {to};
     stage.prepare = [kit, to, texels, name = stage.name] {
         auto kernel = kit.library.kernel(kernel::VariantKey("upscale/surfaces"), "place_surfaces",
@@ -37,8 +38,8 @@ frame::Stage place(const Kit& kit, const frame::Resource& to, const std::string&
             const compute::Buffer none;
             kernel
                 .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
-                     run["surface depth"], run["surface motion"], run[to.name],
-                     texels.empty() ? none : run[texels])
+                     run["surface depth"], run["surface motion"], run["surface geometric normal"],
+                     run[to.name], texels.empty() ? none : run[texels])
                 .launch(name, {kit.slots()}, {kGroup});
         };
     };
@@ -74,26 +75,24 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
     stage.name = "remap surfaces";
     stage.reads = {"fovea", "sampled surfaces", "log-polar surface", "log-polar colour", "colour"};
     stage.reads_last = {"depth range"};
-    stage.writes = {planes(kit.kit, "depth range", 2), planes(kit.kit, "followed motion", 2),
-                    planes(kit.kit, "sample spread", 1)};
-    stage.scratch = {{"texel ranges", 8, kit.buffer->texels()},
+    stage.writes = {planes(kit.kit, "depth range", MACULA_RANGE_PLANES),
+                    planes(kit.kit, "followed motion", 2), planes(kit.kit, "sample spread", 1)};
+    stage.scratch = {{"texel ranges", 16, kit.buffer->texels()},
                      {"texel motions", 16, kit.buffer->texels()}};
     stage.prepare = [kit, name = stage.name] {
         kit.buffer->prepare(kit.kit);
         constexpr const char* program = "remap/log_polar_surface";
-        auto summarise =
-            kit.kit.library.kernel(kit.program(program), "summarise_texels", kit.kit.device);
-        auto remap = kit.kit.library.kernel(kit.program(program).parameter("lanes", kit.kit.lanes),
-                                            "remap_surfaces", kit.kit.device);
+        const kernel::VariantKey key = kit.program(program).parameter("lanes", kit.kit.lanes);
+        auto summarise = kit.kit.library.kernel(key, "summarise_texels", kit.kit.device);
+        auto remap = kit.kit.library.kernel(key, "remap_surfaces", kit.kit.device);
         return [=](frame::Run& run) mutable {
             const shared::LogPolarParams& p = kit.buffer->params();
-            const std::uint64_t across = (p.width + MACULA_RAY_BLOCK - 1) / MACULA_RAY_BLOCK;
             summarise
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels", {compute::Range::cover(across * p.height, kGroup)},
-                        {kGroup});
+                .launch("summarise texels", strips(kit.kit, p.width, p.height),
+                        kit.kit.lane_group());
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
                      run.scratch("texel ranges"), run.scratch("texel motions"),
@@ -110,7 +109,8 @@ frame::Stage follow_surfaces(const TemporalKit& kit) {
     stage.name = "follow surfaces";
     stage.reads = {"surface planes"};
     stage.reads_last = {"depth range"};
-    stage.writes = {planes(kit.kit, "depth range", 2), planes(kit.kit, "followed motion", 2)};
+    stage.writes = {planes(kit.kit, "depth range", MACULA_RANGE_PLANES),
+                    planes(kit.kit, "followed motion", 2)};
     stage.prepare = [kit, name = stage.name] {
         auto kernel = kit.kit.lane_kernel("upscale/follow", "follow_surfaces");
         return [=](frame::Run& run) mutable {

@@ -5,8 +5,8 @@
 #include "shared/planes.h"
 
 /* One work-item a packet of 4 x 4 pixels. planes: depth and motion of the reprojected mesh, the
- * background without motion where there is none. fresh: 1 where a pixel is this frame's sample,
- * which has the frame's jitter, 0 where it is a mean of many; may be null. */
+ * background without motion where there is none; no normal is known. fresh: 1 where a pixel is this
+ * frame's sample, which has the frame's jitter, 0 where it is a mean of many; may be null. */
 kernel void place_mesh_surfaces(global const FrameParams* restrict frame,
                                 global const WeierParams* restrict weier,
                                 global const float* restrict mesh_columns,
@@ -48,6 +48,7 @@ kernel void place_mesh_surfaces(global const FrameParams* restrict frame,
         planes[MACULA_PLANE_DEPTH * pixels + pixel] = depth[lane];
         planes[MACULA_PLANE_MOTION_X * pixels + pixel] = motion_x[lane];
         planes[MACULA_PLANE_MOTION_Y * pixels + pixel] = motion_y[lane];
+        planes[MACULA_PLANE_NORMAL * pixels + pixel] = 0.0f;
         if (fresh)
             fresh[pixel] = (masks[packet] >> (lane + 16u) & 1u) != 0u ? 1.0f : 0.0f;
     }

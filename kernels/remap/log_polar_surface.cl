@@ -5,6 +5,7 @@
 #include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
+#include "upscale/neighbours.h"
 
 /* Where a strip's pixels lie in the buffer: in texels, 0 being the middle of the first one. */
 typedef struct Place {
@@ -18,67 +19,68 @@ typedef struct Place {
 #include "remap/places_polar.h"
 #endif
 
-static inline float luminance(float4 c) {
-    return fma(c.x, 0.2126f, fma(c.y, 0.7152f, c.z * 0.0722f));
-}
-
 /* Of three by three texels. */
 typedef struct Sums {
-    float least, most;                 /* depths */
-    float light, squares, count;       /* of their luminance */
-    float motion_x, motion_y, movable; /* of those that were in view */
+    Real least, most;                 /* depths */
+    Real light, squares, count;       /* of their luminance */
+    Real motion_x, motion_y, movable; /* of those that were in view */
 } Sums;
 
-static inline void add_texel(Sums* sums, float4 colour, float4 surface) {
-    const float light = luminance(colour);
-    sums->least = m_min(sums->least, surface.x);
-    sums->most = m_max(sums->most, surface.x);
-    sums->light = sums->light + light;
-    sums->squares = fma(light, light, sums->squares);
-    sums->count = sums->count + 1.0f;
-    if (fabs(surface.y) < MACULA_NO_MOTION && fabs(surface.z) < MACULA_NO_MOTION) {
-        sums->motion_x = sums->motion_x + surface.y;
-        sums->motion_y = sums->motion_y + surface.z;
-        sums->movable = sums->movable + 1.0f;
-    }
+static inline void add_texels(Sums* sums, Mask sampled, Real light, Real3 surface) {
+    const Real one = splat(1.0f), zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
+    sums->least = sampled ? m_min(sums->least, surface.x) : sums->least;
+    sums->most = sampled ? m_max(sums->most, surface.x) : sums->most;
+    sums->light = sums->light + (sampled ? light : zero);
+    sums->squares = sampled ? fma(light, light, sums->squares) : sums->squares;
+    sums->count = sums->count + (sampled ? one : zero);
+    const Mask moved = sampled & (fabs(surface.y) < none) & (fabs(surface.z) < none);
+    sums->motion_x = sums->motion_x + (moved ? surface.y : zero);
+    sums->motion_y = sums->motion_y + (moved ? surface.z : zero);
+    sums->movable = sums->movable + (moved ? one : zero);
 }
 
-static inline void summarise(global const LogPolarParams* params, global const Fovea* fovea,
-                             global const float4* colours, global const float4* surfaces,
-                             global float2* ranges, global float4* motions, uint column, uint row) {
-    Sums sums = {MACULA_BACKGROUND_DEPTH, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    for (uint k = 0u; k < 9u; ++k) {
-        const uint i = column + k % 3u; /* a row begins with an empty texel */
-        const uint at = row_of_texels(params, (int)(row + k / 3u) - 1) * params->pitch + i;
-        if (i > fovea->first_column && i <= params->width && colours[at].w > 0.0f)
-            add_texel(&sums, colours[at], surfaces[at]);
-    }
-    const float share = m_divide(1.0f, m_max(sums.count, 1.0f)), mean = sums.light * share;
-    const float variance = fma(-mean, mean, sums.squares * share);
-    const float spread = variance > 1e-12f ? m_sqrt(variance) : 0.0f;
-    const float moved = m_divide(1.0f, m_max(sums.movable, 1.0f));
-    const uint to = row * params->pitch + column + 1u;
-    ranges[to] = (float2)(sums.least, sums.most);
-    motions[to] = (float4)(sums.motion_x * moved, sums.motion_y * moved, spread,
-                           sums.movable > 0.0f ? 1.0f : 0.0f);
+/* The texels from an index on, of which `whole` says that none lies beyond the buffer. */
+static inline Lane4 texels_from(global const float4* texels, uint first, bool whole, uint last) {
+    return whole ? load4(texels, first) : gather4(texels, min(lanes_from(first), splat_uint(last)));
 }
 
-/* One work-item MACULA_RAY_BLOCK texels of a row. ranges: the least and the greatest depth of three
- * by three texels; motions: their mean, the deviation of the luminance, 1. Texels without a sample
- * have colours whose alpha is 0. */
+/* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
+ * three texels, and the texel's own normal; motions: their mean, the deviation of the luminance, 1.
+ * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
                              global const float4* restrict colours,
                              global const float4* restrict surfaces,
-                             global float2* restrict ranges, global float4* restrict motions) {
-    const uint across = (params->width + MACULA_RAY_BLOCK - 1u) / MACULA_RAY_BLOCK;
-    const uint item = (uint)get_global_id(0), row = item / across;
-    const uint first = item % across * MACULA_RAY_BLOCK;
-    if (row >= params->height)
+                             global float4* restrict ranges, global float4* restrict motions) {
+    const Strip s = strip_of_item(params->width, params->height);
+    const int needed = (int)fovea->first_column;
+    if (s.y >= s.height || s.x + MACULA_LANES <= needed || needed >= s.width)
         return;
-    const uint end = min(first + MACULA_RAY_BLOCK, params->width);
-    for (uint column = max(first, fovea->first_column); column < end; ++column)
-        summarise(params, fovea, colours, surfaces, ranges, motions, column, row);
+    const uint pitch = params->pitch, last = pitch * params->height - 1u;
+    const bool whole = s.x + MACULA_LANES + 2 <= (int)pitch;
+    const Real zero = splat(0.0f);
+    Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero};
+    Real normal = zero;
+    for (int k = 0; k < 9; ++k) {
+        /* A row begins with an empty texel. */
+        const Int i = strip_columns(&s) + k % 3;
+        const uint from = row_of_texels(params, s.y + k / 3 - 1) * pitch + (uint)(s.x + k % 3);
+        const Lane4 colour = texels_from(colours, from, whole, last);
+        const Lane4 surface = texels_from(surfaces, from, whole, last);
+        const Mask sampled = (i > needed) & (i <= s.width) & (colour.w > zero);
+        add_texels(&sums, sampled, luminance_of(colour.xyz), surface.xyz);
+        normal = k == 4 && any_lane(sampled) ? (sampled ? surface.w : zero) : normal;
+    }
+    const Real one = splat(1.0f), share = m_divide(one, m_max(sums.count, one));
+    const Real mean = sums.light * share;
+    const Real spread = deviation_of(fma(-mean, mean, sums.squares * share));
+    const Real moved = m_divide(one, m_max(sums.movable, one));
+    const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
+    const Mask inside = strip_inside(&s);
+    scatter4(ranges, lanes_from(to), inside, make3(sums.least, sums.most, normal), zero);
+    scatter4(motions, lanes_from(to), inside,
+             make3(sums.motion_x * moved, sums.motion_y * moved, spread),
+             sums.movable > zero ? one : zero);
 }
 
 /* Between two by two texels; those without motion count nothing, and none at all: no motion. */
@@ -107,11 +109,80 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
     return sum;
 }
 
-/* One work-item a strip. sampled: depth and motion of the disk. range, followed: as of
+/* As still_faces(), of the texels around the nearest one to a pixel. */
+static inline Mask texels_face(global const LogPolarParams* params, global const Fovea* fovea,
+                               global const float4* ranges, const Place* p, Real own, Real facing,
+                               Mask wanted) {
+    Mask alike = own == facing;
+    if (any_lane(wanted & !alike))
+        alike = face_alike(own, facing);
+    const Int last = splat_int((int)params->width - 1);
+    const Int first = min(splat_int((int)fovea->first_column), last);
+    const Int column = to_int(rint(p->column)), row = to_int(rint(p->row));
+    for (int k = 0; k < 9 && any_lane(wanted & !alike); ++k) {
+        const Int at = min(max(column + (k % 3 - 1), first), last);
+        const Uint texel = texel_at(params, at, row + (k / 3 - 1));
+        alike = alike | face_alike(MACULA_GATHER(float, ranges, texel, .z), facing);
+    }
+    return alike;
+}
+
+/* What a strip shows: where it was, how far away, which way it faces. */
+typedef struct Shown {
+    Real motion_x, motion_y;
+    Depths depths, kept; /* to look for in the last frame, and for the next one */
+    Real normal, deviation;
+} Shown;
+
+static inline Shown show_texels(global const LogPolarParams* params, global const float4* ranges,
+                                global const float4* motions, const Place* p) {
+    const Uint nearest = texel_at(params, to_int(rint(p->column)), to_int(rint(p->row)));
+    const Lane4 motion = motion_at(params, motions, p);
+    const Real3 range = gather4(ranges, nearest).xyz;
+    const Depths depths = {range.x, range.y};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
+    return shown;
+}
+
+/* `within`: so far inside of the disk that all neighbours were sampled. */
+static inline Shown show_pixels(global const float* sampled, uint pixels, const Strip* s,
+                                Mask within) {
+    const Nearest around = nearest_surface(sampled, pixels, s);
+    const Real own = plane_at(sampled + MACULA_PLANE_DEPTH * pixels, s, 0, 0);
+    const Real x = plane_at(sampled + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
+    const Real y = plane_at(sampled + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
+    const Real nearest = within ? around.depth : own;
+    const Real behind = within ? seam_depth(&around, own, x, y) : own;
+    const Depths depths = {nearest, nearest}, kept = {nearest, behind};
+    const Shown shown = {within ? around.motion_x : x,
+                         within ? around.motion_y : y,
+                         depths,
+                         kept,
+                         plane_at(sampled + MACULA_PLANE_NORMAL * pixels, s, 0, 0),
+                         splat(0.0f)};
+    return shown;
+}
+
+static inline Depths select_depths(Mask mask, Depths a, Depths b) {
+    const Depths d = {mask ? a.least : b.least, mask ? a.most : b.most};
+    return d;
+}
+
+static inline Shown select_shown(Mask mask, const Shown* a, const Shown* b) {
+    const Shown shown = {mask ? a->motion_x : b->motion_x,
+                         mask ? a->motion_y : b->motion_y,
+                         select_depths(mask, a->depths, b->depths),
+                         select_depths(mask, a->kept, b->kept),
+                         mask ? a->normal : b->normal,
+                         mask ? a->deviation : b->deviation};
+    return shown;
+}
+
+/* One work-item a strip. sampled: depth, motion and normal of the disk. range, followed: as of
  * follow_surfaces(); spread: the deviation of the samples that a pixel is made of; 0: the disk. */
 kernel void remap_surfaces(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
-                           global const Fovea* restrict fovea, global const float2* restrict ranges,
+                           global const Fovea* restrict fovea, global const float4* restrict ranges,
                            global const float4* restrict motions,
                            global const float* restrict sampled,
                            global const float* restrict past_range, global float* restrict range,
@@ -121,42 +192,34 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
         return;
     const uint pixels = frame->width * frame->height;
     const Real distance = distance_to_gaze(fovea, &s), zero = splat(0.0f);
-    Real motion_x = zero, motion_y = zero, deviation = zero;
-    Depths depths = {zero, zero}, kept = {zero, zero};
-    const Mask beyond = distance >= splat(fovea->radius);
-    if (any_lane(strip_inside(&s) & beyond)) {
+    const Mask inside = strip_inside(&s), beyond = distance >= splat(fovea->radius);
+    /* At the disk's edge a pixel has neighbours that were not sampled. */
+    const Mask within = distance < splat(fovea->radius - 1.5f);
+    const bool some_beyond = any_lane(inside & beyond), some_within = any_lane(inside & !beyond);
+    Place p = {zero, zero};
+    Shown shown = {zero, zero, {zero, zero}, {zero, zero}, zero, zero};
+    if (some_beyond) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
-        const Place p =
-            place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
-        const Uint nearest = texel_at(params, to_int(rint(p.column)), to_int(rint(p.row)));
-        const Lane4 motion = motion_at(params, motions, &p);
-        depths.least = MACULA_GATHER(float, ranges, nearest, .x);
-        depths.most = MACULA_GATHER(float, ranges, nearest, .y);
-        kept = depths;
-        motion_x = motion.xyz.x;
-        motion_y = motion.xyz.y;
-        deviation = motion.xyz.z;
+        p = place_in_buffer(frame, params, fovea, x, y, m_max(distance, splat(fovea->inner)));
+        shown = show_texels(params, ranges, motions, &p);
     }
-    if (any_lane(strip_inside(&s) & (distance < splat(fovea->radius)))) {
-        /* At its edge a pixel has neighbours that were not sampled. */
-        const Mask within = distance < splat(fovea->radius - 1.5f);
-        const Nearest around = nearest_surface(sampled, pixels, &s);
-        const Real own = plane_at(sampled + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
-        const Real own_x = plane_at(sampled + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
-        const Real own_y = plane_at(sampled + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
-        const Real nearest = within ? around.depth : own;
-        depths.least = beyond ? depths.least : nearest;
-        depths.most = beyond ? depths.most : nearest;
-        kept.least = beyond ? kept.least : nearest;
-        const Real behind = within ? seam_depth(&around, own, own_x, own_y) : own;
-        kept.most = beyond ? kept.most : behind;
-        motion_x = beyond ? motion_x : (within ? around.motion_x : own_x);
-        motion_y = beyond ? motion_y : (within ? around.motion_y : own_y);
-        deviation = beyond ? deviation : zero;
+    if (some_within) {
+        const Shown disk = show_pixels(sampled, pixels, &s, within);
+        shown = select_shown(beyond, &shown, &disk);
     }
-    store_plane(range, &s, kept.least);
-    store_plane(range + pixels, &s, kept.most);
-    store_plane(spread, &s, deviation);
-    store_followed(frame, &s, motion_x, motion_y, depths, past_range, followed);
+    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, shown.kept.least);
+    store_plane(range + MACULA_PLANE_MOST * pixels, &s, shown.kept.most);
+    store_plane(range + MACULA_PLANE_FACING * pixels, &s, shown.normal);
+    store_plane(spread, &s, shown.deviation);
+    const Before before =
+        find_before(frame, &s, shown.motion_x, shown.motion_y, shown.depths, past_range);
+    Mask same = before.same;
+    if (some_beyond && any_lane(same & beyond))
+        same = same & (!beyond | texels_face(params, fovea, ranges, &p, shown.normal,
+                                             before.facing, same & beyond));
+    if (some_within && any_lane(same & within))
+        same = same & (!within | still_faces(sampled + MACULA_PLANE_NORMAL * pixels, &s,
+                                             before.facing, same & within));
+    store_followed(&s, shown.motion_x, shown.motion_y, same, followed);
 }

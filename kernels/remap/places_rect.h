@@ -24,6 +24,6 @@ static inline uint row_of_texels(global const LogPolarParams* params, int row) {
 /* The index of a texel. */
 static inline Uint texel_at(global const LogPolarParams* params, Int column, Int row) {
     const Int last = splat_int((int)params->height - 1);
-    const Int kept = row > last ? last : row;
+    const Int kept = min(max(row, splat_int(0)), last);
     return int_to_uint(kept * (int)params->pitch + column + 1);
 }

@@ -8,7 +8,14 @@
 #define MACULA_PLANE_DEPTH 0u    /* along the view axis; MACULA_BACKGROUND_DEPTH: nothing */
 #define MACULA_PLANE_MOTION_X 1u /* pixels: last frame's place minus this one's */
 #define MACULA_PLANE_MOTION_Y 2u
-#define MACULA_SURFACE_PLANES 3u
+#define MACULA_PLANE_NORMAL 3u /* the geometric one as of pack_normal(); 0: not known */
+#define MACULA_SURFACE_PLANES 4u
+
+/* "depth range": what the next frame compares with. */
+#define MACULA_PLANE_LEAST 0u
+#define MACULA_PLANE_MOST 1u
+#define MACULA_PLANE_FACING 2u /* a normal */
+#define MACULA_RANGE_PLANES 3u
 
 /* "stable planes", "upscaled planes": colours, and what they are worth in samples. */
 #define MACULA_PLANE_WORTH 3u

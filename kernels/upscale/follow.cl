@@ -1,8 +1,9 @@
 /* Surfaces followed from frame to frame, for methods that sample each pixel. */
 #include "upscale/follow.h"
 
-/* One work-item a strip. followed: as store_followed() writes it. range: two planes, what the next
- * frame compares with: the pixel's own depth, or the nearest around it, which moves an edge. */
+/* One work-item a strip. followed: as store_followed() writes it. range: what the next frame
+ * compares with: the pixel's own depth, or the nearest around it, which moves an edge; its normal.
+ */
 kernel void follow_surfaces(global const FrameParams* restrict frame,
                             global const float* restrict surfaces,
                             global const float* restrict past_range, global float* restrict range,
@@ -12,11 +13,15 @@ kernel void follow_surfaces(global const FrameParams* restrict frame,
         return;
     const uint pixels = frame->width * frame->height;
     const Nearest n = nearest_surface(surfaces, pixels, &s);
-    store_plane(range, &s, n.depth);
     const Real own = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, &s, 0, 0);
     const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
     const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
-    store_plane(range + pixels, &s, seam_depth(&n, own, x, y));
+    global const float* normals = surfaces + MACULA_PLANE_NORMAL * pixels;
+    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, n.depth);
+    store_plane(range + MACULA_PLANE_MOST * pixels, &s, seam_depth(&n, own, x, y));
+    store_plane(range + MACULA_PLANE_FACING * pixels, &s, plane_at(normals, &s, 0, 0));
     const Depths depths = {n.depth, n.depth};
-    store_followed(frame, &s, n.motion_x, n.motion_y, depths, past_range, followed);
+    const Before before = find_before(frame, &s, n.motion_x, n.motion_y, depths, past_range);
+    const Mask same = before.same & still_faces(normals, &s, before.facing, before.same);
+    store_followed(&s, n.motion_x, n.motion_y, same, followed);
 }

@@ -8,6 +8,7 @@
 #include "lib/footprint.h"
 #include "shared/planes.h"
 #include "shared/surface.h"
+#include "upscale/normals.h"
 
 /* Part by which a depth may differ from what it is expected to be. */
 #define DEPTH_TOLERANCE 0.1f
@@ -73,33 +74,57 @@ typedef struct Depths {
     Real least, most;
 } Depths;
 
-/* Writes two planes of motion in pixels, MACULA_NO_MOTION for what has no history: past_range, two
- * planes of the last frame, holds no depth near those that are looked for. */
-static inline void store_followed(global const FrameParams* frame, const Strip* s, Real motion_x,
-                                  Real motion_y, Depths depths, global const float* past_range,
-                                  global float* followed) {
+/* A strip's places in the last frame, and what faced the viewer there. */
+typedef struct Before {
+    Mask same;   /* it holds a depth near those that are looked for */
+    Real facing; /* a packed normal */
+} Before;
+
+/* past_range: planes of the last frame. */
+static inline Before find_before(global const FrameParams* frame, const Strip* s, Real motion_x,
+                                 Real motion_y, Depths depths, global const float* past_range) {
     const uint pixels = frame->width * frame->height;
     const Real x = strip_middles(s) + motion_x;
     const Real y = splat((float)s->y + 0.5f) + motion_y;
     const Mask seen = strip_inside(s) & (x > splat(0.0f)) & (y > splat(0.0f)) &
                       (x < splat((float)s->width)) & (y < splat((float)s->height));
-    const Real none = splat(MACULA_NO_MOTION);
-    Real kept_x = none, kept_y = none;
+    Before before = {seen, splat(0.0f)};
     if (any_lane(seen)) {
         const Footprint f = footprint_at(x, y, seen, s->width, s->height);
-        const Real past_least = nearest_tap(past_range, &f);
-        const Real past_most = nearest_tap(past_range + pixels, &f);
+        const Real past_least = nearest_tap(past_range + MACULA_PLANE_LEAST * pixels, &f);
+        const Real past_most = nearest_tap(past_range + MACULA_PLANE_MOST * pixels, &f);
+        before.facing = nearest_tap(past_range + MACULA_PLANE_FACING * pixels, &f);
         const Mask reaches = past_depth(frame, s, depths.least) <=
                              past_most * splat(1.0f + DEPTH_TOLERANCE);
         const Mask begins = past_depth(frame, s, depths.most) >=
                             past_least * splat(1.0f - DEPTH_TOLERANCE);
         /* Before the first frame all depths are 0. */
-        const Mask same = seen & reaches & begins & (past_most > splat(0.0f));
-        kept_x = same ? motion_x : none;
-        kept_y = same ? motion_y : none;
+        before.same = seen & reaches & begins & (past_most > splat(0.0f));
     }
-    store_plane(followed, s, kept_x);
-    store_plane(followed + pixels, s, kept_y);
+    return before;
+}
+
+/* What faced the viewer in the last frame still does: at the pixel, or at one of those around it,
+ * whose edges the jitter moves. */
+static inline Mask still_faces(global const float* normals, const Strip* s, Real facing,
+                               Mask wanted) {
+    const Real own = plane_at(normals, s, 0, 0);
+    Mask alike = own == facing;
+    if (any_lane(wanted & !alike))
+        alike = face_alike(own, facing);
+    for (uint k = 0u; k < 9u && any_lane(wanted & !alike); ++k) {
+        const int dx = (int)(k % 3u) - 1, dy = (int)(k / 3u) - 1;
+        alike = alike | face_alike(plane_at(normals, s, dx, dy), facing);
+    }
+    return alike;
+}
+
+/* Writes two planes of motion in pixels, MACULA_NO_MOTION for what has no history. */
+static inline void store_followed(const Strip* s, Real motion_x, Real motion_y, Mask same,
+                                  global float* followed) {
+    const Real none = splat(MACULA_NO_MOTION);
+    store_plane(followed, s, same ? motion_x : none);
+    store_plane(followed + (uint)(s->width * s->height), s, same ? motion_y : none);
 }
 
 #endif

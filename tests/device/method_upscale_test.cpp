@@ -275,6 +275,79 @@ TEST_P(EachMode, WhatMovesLeavesNoTrail) {
     }
 }
 
+// A box whose front is red and whose right side is blue, before a black wall.
+scene::Scene two_sided_box() {
+    scene::Mesh wall, box;
+    add_quad(wall, {-40, -40, -20}, {80, 0, 0}, {0, 80, 0}, 0);
+    add_quad(box, {-1, -1, 0.3f}, {2, 0, 0}, {0, 2, 0}, 1);
+    add_quad(box, {1, -1, 0.3f}, {0, 0, -0.6f}, {0, 2, 0}, 2);
+    scene::Scene scene = scene_of(std::move(wall), {{1, 0, 6}, {1, 0, 0}, 20.0f});
+    scene.meshes.push_back(std::move(box));
+    scene.instances.push_back({1, {}, "box"});
+    scene.materials.resize(3);
+    for (scene::Material& material : scene.materials)
+        material.diffuse = material.emission = glm::vec3(0.0f);
+    scene.materials[1].emission = glm::vec3(1.0f, 0.0f, 0.0f);
+    scene.materials[2].emission = glm::vec3(0.0f, 0.0f, 1.0f);
+    return scene;
+}
+
+// All pixels around one show that colour alone.
+bool shows(const Picture& picture, int width, int height, int x, int y, int reach, bool red) {
+    if (x < reach || y < reach || x + reach >= width || y + reach >= height)
+        return false;
+    bool all = true;
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+            const Float4& c = picture[std::size_t((y + j) * width + x + i)];
+            all = all && c.x == (red ? 1.0f : 0.0f) && c.z == (red ? 0.0f : 1.0f);
+        }
+    return all;
+}
+
+TEST_P(EachMode, ASideThatTurnsUpTakesNoHistoryFromTheOneBesideIt) {
+    const scene::Scene scene = two_sided_box();
+    for (const float disk : {3.0f, 0.2f}) {
+        WeierSetup setup = of_method(GetParam());
+        setup.width = 150;
+        setup.height = 120;
+        setup.log_polar.disk = disk;
+        setup.temporal.ratio = 1.0f;
+        setup.geometry.merge_static = false;
+        setup.outputs = {"followed motion"};
+        WeierFrames frames(device(), scene, setup);
+        Picture before;
+        int turned_up = 0, kept = 0, followed = 0;
+        for (std::uint32_t frame = 0; frame < 6; ++frame) {
+            const float angle = frame % 2 == 0 ? -0.15f : 0.2f;
+            scene::Transform there;
+            there.row[0] = {std::cos(angle), 0, std::sin(angle), 0};
+            there.row[2] = {-std::sin(angle), 0, std::cos(angle), 0};
+            frames.place(std::vector{scene::Transform{}, there});
+            frames.run(frame, scene.cameras.front());
+            const Picture now = frames.read<Float4>("colour");
+            const auto motion = frames.read<float>("followed motion");
+            for (int y = 0; frame > 0 && y < 120; ++y)
+                for (int x = 0; x < 150; ++x) {
+                    const auto i = std::size_t(y * 150 + x);
+                    followed += std::abs(motion[i]) < 100.0f ? 1 : 0;
+                    // It was behind the edge, where the front was in sight.
+                    if (!shows(now, 150, 120, x, y, 2, false))
+                        continue;
+                    const int from = x + int(std::lround(motion[i]));
+                    const bool is_kept = std::abs(motion[i]) < 100.0f;
+                    kept += is_kept && shows(before, 150, 120, from, y, 1, true) ? 1 : 0;
+                    turned_up += is_kept ? 0 : 1;
+                }
+            before = now;
+        }
+        EXPECT_GT(turned_up, 100) << "disk " << disk;
+        // Beyond the disk a pixel's neighbours are samples that lie further away.
+        EXPECT_LE(kept, disk > 1.0f ? 0 : 5) << "disk " << disk;
+        EXPECT_GT(followed, 2 * 150 * 120) << "disk " << disk;
+    }
+}
+
 // Squares of 0 and 1, about as large as the pixels that are rendered.
 scene::Scene checkerboard() {
     scene::Mesh mesh;

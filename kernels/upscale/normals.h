@@ -1,0 +1,54 @@
+/* Normals in one float each: octahedral (Meyer et al. 2010, "On Floating-Point Normal Vectors"),
+ * two whole numbers of 0..2046 in one. OpenCL C only. */
+#ifndef MACULA_UPSCALE_NORMALS_H
+#define MACULA_UPSCALE_NORMALS_H
+
+#include "lib/lanes.h"
+
+#define NORMAL_STEPS 1023.0f
+#define NORMAL_STEP 0x1.004010p-10f
+#define NORMAL_BASE 2048.0f
+/* The square of the cosine from which on two surfaces face alike: 45 degrees. */
+#define ALIKE_SQUARED 0.5f
+
+static inline float pack_normal(float3 n) {
+    const float size = fabs(n.x) + fabs(n.y) + fabs(n.z);
+    if (!(size > 1e-6f))
+        return 0.0f;
+    const float share = m_divide(1.0f, size);
+    float a = n.x * share, b = n.y * share;
+    if (n.z < 0.0f) {
+        const float folded = copysign(1.0f - fabs(b), a);
+        b = copysign(1.0f - fabs(a), b);
+        a = folded;
+    }
+    const float x = rint(fma(a, NORMAL_STEPS, NORMAL_STEPS));
+    const float y = rint(fma(b, NORMAL_STEPS, NORMAL_STEPS));
+    return fma(x, NORMAL_BASE, y + 1.0f);
+}
+
+/* Of any length; of a number that is no normal: any vector. */
+MACULA_ALWAYS_INLINE Real3 unpacked_normal(Real packed) {
+    const Real kept = clamped(packed - splat(1.0f), splat(0.0f), splat(0x1p22f));
+    const Real high = floor(kept * splat(0x1p-11f));
+    const Real low = fma(high, splat(-NORMAL_BASE), kept);
+    const Real one = splat(1.0f);
+    const Real a = fma(high, splat(NORMAL_STEP), -one);
+    const Real b = fma(low, splat(NORMAL_STEP), -one);
+    const Real z = (one - fabs(a)) - fabs(b);
+    const Mask folded = z < splat(0.0f);
+    const Real x = folded ? copysign(one - fabs(b), a) : a;
+    const Real y = folded ? copysign(one - fabs(a), b) : b;
+    return make3(x, y, z);
+}
+
+/* Two packed normals. One that is not known is like every other. */
+MACULA_ALWAYS_INLINE Mask face_alike(Real packed, Real other) {
+    const Real3 a = unpacked_normal(packed), b = unpacked_normal(other);
+    const Real cosine = dot3(a, b), sizes = dot3(a, a) * dot3(b, b);
+    const Mask known = (packed >= splat(1.0f)) & (other >= splat(1.0f));
+    const Mask apart = (cosine <= splat(0.0f)) | (cosine * cosine < splat(ALIKE_SQUARED) * sizes);
+    return !(known & apart);
+}
+
+#endif
