@@ -145,14 +145,12 @@ class Run {
         }
     }
 
-    // Two at a time: what all of them need at once does not fit into the memory of a small machine.
+    // All in turn beside the same frames of `full`.
     void sweep(std::string_view scene, const RrmScene& at, std::uint32_t depth) {
-        for (std::size_t i = 0; i < kSweep.size(); i += 2) {
-            std::vector<RrmMethod> methods = {{"rrm", kSweep[i]}};
-            if (i + 1 < kSweep.size())
-                methods.push_back({"rrm", kSweep[i + 1]});
-            speed("sweep", scene, at, depth, methods);
-        }
+        std::vector<RrmMethod> methods;
+        for (const std::uint32_t n : kSweep)
+            methods.push_back({"rrm", n});
+        speed("sweep", scene, at, depth, methods);
     }
 
     void quality(std::string_view scene, const RrmScene& at, std::uint32_t depth) {

@@ -70,7 +70,7 @@ void place_instances(Scene& scene, float frame);
 struct CollisionAcuity {
     float exact_degrees = 5.0f;       // up to there triangles are met, 0..180; 180: everywhere
     float levels_per_degree = 1.0f;   // levels of the obstacle's tree left out beyond, 0..100
-    std::uint32_t coarsest_level = 4; // never less deep than this; 0: the box of all (the paper's)
+    std::uint32_t coarsest_level = 7; // never less deep than this; 0: the box of all (the paper's)
 };
 
 // Spheres that fall on what stands still (Smith et al. 2014, section 3.3).

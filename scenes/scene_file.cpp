@@ -6,6 +6,7 @@
 #include "scenes/display.hpp"
 #include "scenes/formats.hpp"
 #include "scenes/procedural/registry.hpp"
+#include "scenes/scene_file_physics.hpp"
 #include "scenes/scene_motion.hpp"
 #include "scenes/scene_overrides.hpp"
 #include "scenes/toml_reader.hpp"
@@ -213,6 +214,8 @@ Scene load_scene_file(const std::string& text, const std::filesystem::path& path
     transform_scene(scene, up, scale);
     read_view(root, path, options, scene);
     read_motion(root, scene);
+    if (const std::optional<TomlTable> physics = root.table("physics"))
+        read_physics(*physics, scene);
     for (const TomlTable& table : root.tables("material"))
         override_material(table, scene);
     root.reject_unknown();

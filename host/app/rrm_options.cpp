@@ -37,6 +37,16 @@ void parse_group(const std::string& text, stage::RrmOptions& engine) {
         fmt::format("--rrm-group \"{}\": WxH blocks or their number was expected", text));
 }
 
+stage::RefreshRing parse_ring(const std::string& text) {
+    stage::RefreshRing ring{};
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%f:%u%n", &ring.degrees, &ring.period, &used) != 2 ||
+        text[static_cast<std::size_t>(used)] != '\0')
+        throw std::invalid_argument(
+            fmt::format("--rrm-rings \"{}\": DEGREES:FRAMES was expected", text));
+    return ring;
+}
+
 } // namespace
 
 void RrmOptions::add_to(CLI::App& command) {
@@ -44,9 +54,23 @@ void RrmOptions::add_to(CLI::App& command) {
         command.add_option(name, value, meaning)->capture_default_str()->group("Method rrm");
     };
     number("--rrm-fovea", engine.fovea, "Degrees from the gaze to the foveal rectangle's edges");
+    number("--rrm-shape", shape, "Of the fovea: rectangle, or the disk inside of it");
+    number("--rrm-foveal-spp", engine.foveal_samples, "Samples of a foveal pixel, if more");
+    command.add_option("--rrm-rings", rings, "DEGREES:FRAMES,...: refreshed so often up to there")
+        ->delimiter(',')
+        ->group("Method rrm");
+    number("--rrm-busy-change", engine.busy.change,
+           "Refresh more where a colour changes by so much, 0..1; 0: nowhere");
+    number("--rrm-busy-motion", engine.busy.motion,
+           "Refresh more where pixels move by so many a frame; 0: nowhere");
+    number("--rrm-busy-times", engine.busy.times, "So many times as often");
+    number("--rrm-busy-frames", engine.busy.frames, "For so many frames");
+    number("--rrm-busy-budget", engine.busy.budget, "With at most that part of the pixels a frame");
     number("--rrm-group", group, "Blocks of a refresh group: WxH, or their number N, 1..132");
     number("--rrm-block", block, "Pixels of a block: 2x2 or 4x1");
+    number("--rrm-groups", groups, "interlaced by four, their due blocks touch, or apart");
     number("--rrm-order", order, "Of a group: horizontal, serpentine, scattered or blue_noise");
+    number("--rrm-cut", cut, "What a turn by half of the view renders: full or stale (the turns)");
     number("--rrm-first-frame", first_frame,
            "Pixels rendered without history: full (all) or turns");
 }
@@ -56,7 +80,12 @@ stage::RrmOptions engine_options(const RrmOptions& options) {
     parse_group(options.group, engine);
     engine.order = stage::parse_refresh_order(options.order);
     engine.block_width = is_first("--rrm-block", options.block, "2x2", "4x1") ? 2 : 4;
+    engine.interlaced = is_first("--rrm-groups", options.groups, "interlaced", "apart");
     engine.first_frame_full = is_first("--rrm-first-frame", options.first_frame, "full", "turns");
+    engine.cut_full = is_first("--rrm-cut", options.cut, "full", "stale");
+    engine.disk = !is_first("--rrm-shape", options.shape, "rectangle", "disk");
+    for (const std::string& ring : options.rings)
+        engine.rings.push_back(parse_ring(ring));
     return engine;
 }
 

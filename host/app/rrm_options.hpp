@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "host/stage/rrm.hpp"
 
@@ -13,11 +14,15 @@ class App;
 namespace macula::app {
 
 struct RrmOptions {
-    stage::RrmOptions engine;         // but for what has a member here
-    std::string group = "3x4";        // blocks: WxH, or N alone
-    std::string order = "horizontal"; // see stage::RefreshOrder
-    std::string block = "2x2";        // pixels, or "4x1"
-    std::string first_frame = "full"; // or "turns"
+    stage::RrmOptions engine;          // but for what has a member here
+    std::string group = "3x4";         // blocks: WxH, or N alone
+    std::string order = "horizontal";  // see stage::RefreshOrder
+    std::string block = "2x2";         // pixels, or "4x1"
+    std::string groups = "interlaced"; // or "apart"
+    std::string first_frame = "full";  // or "turns"
+    std::string cut = "full";          // or "stale"
+    std::string shape = "rectangle";   // or "disk"
+    std::vector<std::string> rings;    // DEGREES:FRAMES each
 
     void add_to(CLI::App& command);
 };

@@ -16,18 +16,18 @@ void Graph::rename(std::string name, std::string purpose) {
 }
 
 Graph& Graph::add(Stage stage) {
-    append(std::move(stage), 0);
+    append(std::move(stage), 0, 1);
     return *this;
 }
 
-Graph& Graph::for_each_sample(std::vector<Stage> stages) {
+Graph& Graph::for_each_sample(std::vector<Stage> stages, std::uint32_t at_least) {
     ++groups_;
     for (Stage& stage : stages)
-        append(std::move(stage), groups_);
+        append(std::move(stage), groups_, at_least);
     return *this;
 }
 
-void Graph::append(Stage stage, int group) {
+void Graph::append(Stage stage, int group, std::uint32_t at_least) {
     for (const std::string& resource : stage.reads) {
         if (!writer_.contains(resource))
             throw GraphError(fmt::format("method {}: stage \"{}\" reads \"{}\" before any stage "
@@ -48,7 +48,7 @@ void Graph::append(Stage stage, int group) {
         place_[resource.name] = resource.place();
         holds_[resource.place()] = resource.name;
     }
-    nodes_.push_back({std::move(stage), group, false, {}});
+    nodes_.push_back({std::move(stage), at_least, group, false, {}});
 }
 
 std::vector<std::string> Graph::resources() const {
@@ -158,7 +158,8 @@ std::string Graph::explain() const {
 
 void Graph::run_group(std::size_t first, std::size_t last, const shared::FrameParams& params) {
     const bool repeated = nodes_[first].group != 0;
-    const std::uint32_t samples = repeated ? params.samples_per_pixel : 1u;
+    const std::uint32_t samples =
+        repeated ? std::max(params.samples_per_pixel, nodes_[first].at_least) : 1u;
     for (std::uint32_t sample = 0; sample < samples; ++sample) {
         Run run(params, *resources_, sample);
         for (std::size_t i = first; i < last; ++i) {

@@ -67,8 +67,8 @@ class Graph {
     // earlier stage writes, or what has given its storage to another resource since, or writes what
     // another one writes.
     Graph& add(Stage stage);
-    // Stages that run one after another for each pixel sample.
-    Graph& for_each_sample(std::vector<Stage> stages);
+    // Stages that run one after another for each pixel sample, `at_least` times.
+    Graph& for_each_sample(std::vector<Stage> stages, std::uint32_t at_least = 1);
 
     // For methods that are another one with further stages.
     void rename(std::string name, std::string purpose);
@@ -94,12 +94,13 @@ class Graph {
   private:
     struct Node {
         Stage stage;
-        int group = 0; // equal for stages of one for_each_sample; 0: once a frame
+        std::uint32_t at_least = 1; // times, of a group
+        int group = 0;              // equal for stages of one for_each_sample; 0: once a frame
         bool needed = false;
         StageBody body;
     };
 
-    void append(Stage stage, int group);
+    void append(Stage stage, int group, std::uint32_t at_least);
     const Node* writer_of(const std::string& resource) const;
     void require_own_storage(const std::string& reader, const std::string& resource) const;
     void mark_needed(const std::set<std::string>& outputs);

@@ -26,10 +26,12 @@ frame::Graph make_rrm(const stage::Kit& all, const Options& options) {
         stage::shade(kit, !occlusion, occlusion),
     };
     const std::string colour = add_secondary_rays(stages, kit, options);
-    stages.push_back(stage::persistent(stage::average_samples(kit, colour, "colour")));
+    stages.push_back(stage::keep_refreshed(refresh, colour));
+    stages.push_back(stage::note_refresh(refresh));
     for (frame::Stage& image : surface_images(kit, options))
         stages.push_back(stage::persistent(std::move(image)));
-    graph.for_each_sample(std::move(stages));
+    graph.for_each_sample(std::move(stages), options.rrm.foveal_samples);
+    graph.add(stage::show_age(refresh));
     return graph;
 }
 

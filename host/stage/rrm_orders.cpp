@@ -50,6 +50,16 @@ std::vector<std::uint32_t> order_of_group(const RrmOptions& o, std::uint32_t gro
     });
 }
 
+// Where a block of the group (x, y) lies: column | row << 16 from the first block of its packet.
+std::uint32_t place_in_packet(const RrmOptions& o, std::uint32_t x, std::uint32_t y,
+                              std::uint32_t block) {
+    const std::uint32_t across = 4 / o.block_width, down = o.block_width; // groups of a packet
+    const std::uint32_t column = block % o.group_width, row = block / o.group_width;
+    if (o.interlaced)
+        return (column * across + x % across) | (row * down + y % down) << 16;
+    return (x % across * o.group_width + column) | (y % down * o.group_height + row) << 16;
+}
+
 } // namespace
 
 RefreshOrder parse_refresh_order(std::string_view text) {
@@ -82,11 +92,28 @@ std::vector<std::uint32_t> refresh_orders(const RrmOptions& options) {
                                                 ? frame::make_blue_noise(1)
                                                 : std::vector<std::uint16_t>();
     std::vector<std::uint32_t> orders;
-    for (std::uint32_t group = 0; group < kOrders * kOrders; ++group)
-        for (const std::uint32_t block :
-             order_of_group(options, group % kOrders, group / kOrders, mask))
-            orders.push_back(block % options.group_width | block / options.group_width << 16);
+    for (std::uint32_t group = 0; group < kOrders * kOrders; ++group) {
+        const std::uint32_t x = group % kOrders, y = group / kOrders;
+        for (const std::uint32_t block : order_of_group(options, x, y, mask))
+            orders.push_back(place_in_packet(options, x, y, block));
+    }
     return orders;
+}
+
+std::vector<std::uint32_t> refresh_ranks(const RrmOptions& options) {
+    const std::uint32_t across = 4 / options.block_width, down = options.block_width;
+    const std::uint32_t blocks = options.group_width * options.group_height;
+    const std::uint32_t wide = kOrders * options.group_width;
+    const std::vector<std::uint32_t> orders = refresh_orders(options);
+    std::vector<std::uint32_t> ranks(orders.size());
+    for (std::uint32_t i = 0; i < orders.size(); ++i) {
+        const std::uint32_t group = i / blocks;
+        const std::uint32_t quad_x = group % kOrders / across, quad_y = group / kOrders / down;
+        const std::uint32_t x = quad_x * across * options.group_width + (orders[i] & 0xffffu);
+        const std::uint32_t y = quad_y * down * options.group_height + (orders[i] >> 16);
+        ranks[y * wide + x] = i % blocks;
+    }
+    return ranks;
 }
 
 } // namespace macula::stage

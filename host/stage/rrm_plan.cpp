@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "lib/acuity.h"
+#include "lib/camera.h"
 #include "shared/ray.h"
 
 namespace macula::stage {
@@ -18,19 +19,45 @@ namespace {
 constexpr float kEverywhere = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t kMostBlocks = 132;
 
+void require(bool holds, const std::string& what) {
+    if (!holds)
+        throw std::invalid_argument("method rrm: " + what);
+}
+
+void check(const std::vector<RefreshRing>& rings, float fovea, std::uint32_t blocks) {
+    require(rings.size() <= 5, fmt::format("there are at most 5 rings, not {}", rings.size()));
+    float inside = fovea;
+    for (const RefreshRing& ring : rings) {
+        require(ring.degrees >= inside,
+                fmt::format("a ring's edge at {} degrees lies within what it surrounds ({})",
+                            ring.degrees, inside));
+        require(ring.period >= 1 && blocks % ring.period == 0,
+                fmt::format("a ring's period {} does not divide N = {}", ring.period, blocks));
+        inside = ring.degrees;
+    }
+}
+
+void check(const BusyOptions& o) {
+    require(o.change >= 0.0f && o.change <= 1.0f, "the change of a colour is 0 to 1");
+    require(o.motion >= 0.0f && o.motion <= 1e6f, "the motion is 0 to 1e6 pixels a frame");
+    require(o.times >= 2 && o.times <= kMostBlocks, "busy groups are refreshed 2 to 132 times");
+    require(o.frames >= 1 && o.frames <= 65536, "groups stay busy for 1 to 65536 frames");
+    require(o.budget >= 0.0f && o.budget <= 1.0f, "the budget is 0 to 1 of the picture");
+}
+
 void check(const RrmOptions& o) {
-    const auto require = [](bool holds, const std::string& what) {
-        if (!holds)
-            throw std::invalid_argument("method rrm: " + what);
-    };
     require(o.fovea >= 0.0f, fmt::format("the fovea must be 0 degrees or more, not {}", o.fovea));
     const std::uint64_t blocks = std::uint64_t{o.group_width} * o.group_height;
     require(blocks >= 1 && blocks <= kMostBlocks && o.group_width <= kMostBlocks &&
                 o.group_height <= kMostBlocks,
             fmt::format("a refresh group has 1 to {} blocks, not {} x {}", kMostBlocks,
                         o.group_width, o.group_height));
+    require(o.foveal_samples >= 1 && o.foveal_samples <= 65536,
+            fmt::format("the fovea has 1 to 65536 samples a pixel, not {}", o.foveal_samples));
     require(o.block_width == 2 || o.block_width == 4,
             fmt::format("a block is 2 or 4 pixels wide, not {}", o.block_width));
+    check(o.rings, o.fovea, static_cast<std::uint32_t>(blocks));
+    check(o.busy);
 }
 
 struct Interval {
@@ -101,10 +128,26 @@ PixelRectangle foveal_rectangle(const shared::FrameParams& params, float degrees
     return {x0, y0, x1, y1};
 }
 
+bool is_cut(const shared::FrameParams& params) {
+    const shared::Camera& c = params.camera;
+    const auto half_angle = [](float a, float b) { return (std::atan(a) + std::atan(b)) * 0.5f; };
+    const float smaller =
+        std::min(half_angle(c.tan_left, c.tan_right), half_angle(c.tan_up, c.tan_down));
+    const float turned = shared::dot3(shared::vector_at(c.forward),
+                                      shared::vector_at(params.previous_camera.forward));
+    return turned < std::cos(smaller);
+}
+
 RefreshCycle::RefreshCycle(const RrmOptions& options, std::uint32_t width, std::uint32_t height)
     : options_(options), width_(width), height_(height),
+      most_packets_(shared::slot_count(width, height) / MACULA_RAY_BLOCK),
       used_slots_(std::make_shared<std::uint32_t>(static_cast<std::uint32_t>(kGroup))) {
     check(options_);
+}
+
+std::uint32_t RefreshCycle::quads() const {
+    return divided_up(width_, 4 * options_.group_width) *
+           divided_up(height_, 4 * options_.group_height);
 }
 
 void RefreshCycle::add_region(const PixelRectangle& packets, std::uint32_t period) {
@@ -128,6 +171,67 @@ void RefreshCycle::add_around(const PixelRectangle& hole, const PixelRectangle& 
     add_region({all.x0, hole.y1, all.x1, all.y1}, period);
 }
 
+void RefreshCycle::add_fovea(const PixelRectangle& fovea) {
+    plan_.x0 = fovea.x0;
+    plan_.y0 = fovea.y0;
+    plan_.x1 = fovea.x1;
+    plan_.y1 = fovea.y1;
+    if (fovea.empty())
+        return;
+    const std::uint32_t columns = divided_up(fovea.x1 - fovea.x0, 4);
+    const std::uint32_t rows = divided_up(fovea.y1 - fovea.y0, 4);
+    plan_.region[plan_.regions++] = {0, fovea.x0, fovea.y0, columns, rows, 0};
+    plan_.packets = plan_.foveal_packets = columns * rows;
+}
+
+// Rings around the fovea, and what is around the last one. They end where packets do.
+void RefreshCycle::add_periphery(const shared::FrameParams& params) {
+    const std::uint32_t wide = 4 * plan_.group_width, high = 4 * plan_.group_height;
+    const PixelRectangle all{0, 0, divided_up(width_, wide), divided_up(height_, high)};
+    // Packets that lie in the fovea with all their groups.
+    PixelRectangle hole{divided_up(plan_.x0, wide), divided_up(plan_.y0, high),
+                        plan_.x1 == width_ ? all.x1 : plan_.x1 / wide,
+                        plan_.y1 == height_ ? all.y1 : plan_.y1 / high};
+    plan_.corner_period = plan_.group_blocks;
+    if (!options_.rings.empty())
+        plan_.corner_period = options_.rings.front().period;
+    for (const RefreshRing& ring : options_.rings) {
+        const PixelRectangle r =
+            foveal_rectangle(params, ring.degrees * params.gaze_widening, options_.block_width);
+        const PixelRectangle packets{r.x0 / wide, r.y0 / high, divided_up(r.x1, wide),
+                                     divided_up(r.y1, high)};
+        if (packets.empty())
+            continue;
+        add_around(hole, packets, ring.period);
+        hole = packets;
+    }
+    add_around(hole, all, plan_.group_blocks);
+}
+
+// Packets that the fovea's edge cuts are listed on both sides of it: where the fovea leaves next to
+// nothing, the list would be longer than the picture.
+void RefreshCycle::make_full() {
+    plan_.regions = plan_.packets = plan_.disk = 0;
+    add_fovea({0, 0, width_, height_});
+}
+
+void RefreshCycle::plan_busy() {
+    const BusyOptions& busy = options_.busy;
+    const std::uint32_t further = std::min(busy.times, plan_.group_blocks) - 1;
+    plan_.quads = quads();
+    plan_.quads_across = divided_up(width_, 4 * plan_.group_width);
+    if (!busy.wanted() || further == 0)
+        return;
+    const double share = double{busy.budget} * width_ * height_ / MACULA_RAY_BLOCK / further;
+    const std::uint32_t room = (most_packets_ - std::min(plan_.packets, most_packets_)) / further;
+    plan_.busy_quads = std::min({static_cast<std::uint32_t>(share), room, plan_.quads});
+    plan_.busy_packets = plan_.busy_quads > 0 ? further : 0;
+    plan_.first_quad = shared::random_bits(0, plan_.frame, 1) % plan_.quads;
+    plan_.hold = busy.frames;
+    plan_.change = busy.change;
+    plan_.motion_squared = busy.motion * busy.motion;
+}
+
 const shared::RefreshPlan& RefreshCycle::plan(const shared::FrameParams& params, bool first) {
     const RrmOptions& o = options_;
     if (first)
@@ -139,31 +243,29 @@ const shared::RefreshPlan& RefreshCycle::plan(const shared::FrameParams& params,
     plan_.turn = static_cast<std::uint32_t>(frame_ % plan_.group_blocks);
     plan_.frame = static_cast<std::uint32_t>(frame_);
     ++frame_;
-    const PixelRectangle fovea =
-        first && o.first_frame_full
-            ? PixelRectangle{0, 0, width_, height_}
-            : foveal_rectangle(params, o.fovea * params.gaze_widening, o.block_width);
-    plan_.x0 = fovea.x0;
-    plan_.y0 = fovea.y0;
-    plan_.x1 = fovea.x1;
-    plan_.y1 = fovea.y1;
-    if (!fovea.empty()) {
-        const std::uint32_t columns = divided_up(fovea.x1 - fovea.x0, 4);
-        const std::uint32_t rows = divided_up(fovea.y1 - fovea.y0, 4);
-        plan_.region[plan_.regions++] = {0, fovea.x0, fovea.y0, columns, rows, 0};
-        plan_.packets = columns * rows;
-    }
-    // Pixels of the groups of a packet.
-    const std::uint32_t wide = 4 * o.group_width, high = 4 * o.group_height;
-    const PixelRectangle all{0, 0, divided_up(width_, wide), divided_up(height_, high)};
-    // Packets that lie in the fovea with all their groups.
-    const PixelRectangle hole{divided_up(fovea.x0, wide), divided_up(fovea.y0, high),
-                              fovea.x1 == width_ ? all.x1 : fovea.x1 / wide,
-                              fovea.y1 == height_ ? all.y1 : fovea.y1 / high};
-    add_around(hole, all, plan_.group_blocks);
-    const auto group = static_cast<std::uint32_t>(kGroup);
-    *used_slots_ = std::max(divided_up(plan_.packets * MACULA_RAY_BLOCK, group), 1u) * group;
+    plan_.samples = params.samples_per_pixel;
+    plan_.foveal_samples = std::max(plan_.samples, o.foveal_samples);
+    const auto root = static_cast<std::uint32_t>(std::lround(std::sqrt(plan_.foveal_samples)));
+    plan_.foveal_grid = root * root == plan_.foveal_samples ? root : 0;
+    const float degrees = o.fovea * params.gaze_widening;
+    const bool full = first ? o.first_frame_full : o.cut_full && is_cut(params);
+    add_fovea(full ? PixelRectangle{0, 0, width_, height_}
+                   : foveal_rectangle(params, degrees, o.block_width));
+    plan_.disk = o.disk && !full ? 1 : 0;
+    plan_.cosine = shared::cosine_of_eccentricity(degrees);
+    add_periphery(params);
+    if (plan_.packets > most_packets_)
+        make_full();
+    plan_busy();
     return plan_;
+}
+
+void RefreshCycle::begin_sample(std::uint32_t sample) {
+    const auto group = static_cast<std::uint32_t>(kGroup);
+    const std::uint32_t packets = sample < plan_.samples
+                                      ? plan_.packets + plan_.busy_quads * plan_.busy_packets
+                                      : plan_.foveal_packets;
+    *used_slots_ = std::max(divided_up(packets * MACULA_RAY_BLOCK, group), 1u) * group;
 }
 
 } // namespace macula::stage

@@ -119,6 +119,7 @@
     MEMBER(RefreshRegion, period)                                                                  \
     STRUCT(RefreshPlan)                                                                            \
     MEMBER(RefreshPlan, group_blocks)                                                              \
+    MEMBER(RefreshPlan, motion_squared)                                                            \
     MEMBER(RefreshPlan, region)
 
 #endif

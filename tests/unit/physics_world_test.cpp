@@ -16,7 +16,7 @@ namespace {
 constexpr Observer kFarGaze{{0.0f, 3.6f, 9.0f}, {0.0f, 0.0f, 1.0f}};       // behind the eye's back
 constexpr Observer kNearGaze{{0.0f, 3.6f, 9.0f}, {0.0f, -0.25f, -0.968f}}; // at the knot
 
-Scene scene_with(float exact_degrees, std::uint32_t coarsest = 4) {
+Scene scene_with(float exact_degrees, std::uint32_t coarsest = 7) {
     Scene scene = load("spheres");
     scene.physics->acuity.exact_degrees = exact_degrees;
     scene.physics->acuity.coarsest_level = coarsest;
