@@ -22,6 +22,8 @@ struct FileScene {
     const char* geometry;
 };
 constexpr std::array kFileScenes = {FileScene{"bunny_5k", "bunny/bunny_5k.obj"},
+                                    FileScene{"bunny_5k_spheres", "bunny/bunny_5k.obj"},
+                                    FileScene{"bunny_spheres", "bunny/bunny_69k.obj"},
                                     FileScene{"sibenik", "sibenik/sibenik.obj"},
                                     FileScene{"sponza_crytek", "sponza_crytek/sponza.obj"}};
 

@@ -56,6 +56,7 @@ struct RrmSpeed {
     bool device_clock = true; // false: the driver's profiling has no times, these are the host's
     double ms_full = 0.0, ms_ours = 0.0, wall_ms_full = 0.0, wall_ms_ours = 0.0;
     std::array<double, kStageGroups> ms{}; // of ours, by group
+    double mean_rate = 0.0; // of ours, frames/s: mean over the positions of 1000 / ms
     double samples_full = 0.0, samples_ours = 0.0, rays_full = 0.0, rays_ours = 0.0; // a frame
 
     double fps_full() const { return 1000.0 / ms_full; }

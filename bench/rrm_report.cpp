@@ -33,12 +33,13 @@ std::string quality_line(const RrmRow& row, const RrmQuality& q) {
                        q.samples);
 }
 
-std::string physics_line(const PhysicsResult& p) {
-    return fmt::format("physics, {} frames, {} gazes: {:.3f} ms exact, {:.3f} ms perceptual, "
+std::string physics_line(const RrmRow& row, const PhysicsResult& p) {
+    return fmt::format("physics of {}, {} frames, {} gazes: {:.3f} ms exact, {:.3f} ms perceptual, "
                        "speed-up {:.2f}; coarse everywhere {:.3f} ms, {:.2f}; penetration {:.3f} "
                        "and {:.3f} radii, bound {:.3f}\n",
-                       p.frames, p.gazes, p.ms_exact, p.ms_perceptual, p.speedup, p.ms_coarse,
-                       p.speedup_coarse, p.penetration_exact, p.penetration_perceptual, p.bound);
+                       row.scene, p.frames, p.gazes, p.ms_exact, p.ms_perceptual, p.speedup,
+                       p.ms_coarse, p.speedup_coarse, p.penetration_exact, p.penetration_perceptual,
+                       p.bound);
 }
 
 std::string target(const std::string& what, double value, double wanted, bool met) {
@@ -52,15 +53,18 @@ std::string targets(const RrmRow& row, const RrmCase& one) {
     const bool met = one.secondary ? speedup > one.target_speedup : speedup >= one.target_speedup;
     return target(fmt::format("{}: speed-up (paper: {})", one.name, one.paper_speedup), speedup,
                   one.target_speedup, met) +
+           fmt::format("  {:<44} {:>7.2f}\n",
+                       fmt::format("{}: the same by the mean of frame rates", one.name),
+                       row.speed->mean_rate / row.speed->fps_full()) +
            target(fmt::format("{}: efficiency", one.name), row.speed->efficiency(), kEfficiency,
                   row.speed->efficiency() >= kEfficiency);
 }
 
-std::string physics_targets(const PhysicsResult& p) {
-    return target(fmt::format("physics: speed-up (paper: {})", kPaperPhysicsSpeedup), p.speedup,
-                  kPhysicsSpeedup, p.speedup >= kPhysicsSpeedup) +
-           target("physics: penetration, radii", p.penetration_perceptual, p.bound,
-                  p.penetration_perceptual <= p.bound);
+std::string physics_targets(const RrmRow& row, const PhysicsResult& p) {
+    return target(fmt::format("{}: speed-up (paper: {})", row.scene, kPaperPhysicsSpeedup),
+                  p.speedup, kPhysicsSpeedup, p.speedup >= kPhysicsSpeedup) +
+           target(fmt::format("{}: penetration, radii", row.scene), p.penetration_perceptual,
+                  p.bound, p.penetration_perceptual <= p.bound);
 }
 
 const RrmRow* quality_of(std::span<const RrmRow> rows, const RrmRow& like, std::uint32_t n) {
@@ -100,7 +104,7 @@ std::string rrm_line(const RrmRow& row) {
         return speed_line(row, *row.speed);
     if (row.quality)
         return quality_line(row, *row.quality);
-    return row.physics ? physics_line(*row.physics) : std::string();
+    return row.physics ? physics_line(row, *row.physics) : std::string();
 }
 
 std::string rrm_summary(std::span<const RrmRow> rows) {
@@ -109,7 +113,7 @@ std::string rrm_summary(std::span<const RrmRow> rows) {
     std::string text;
     for (const RrmRow& row : rows) {
         if (row.physics)
-            text += physics_targets(*row.physics);
+            text += physics_targets(row, *row.physics);
         for (const RrmCase& one : rrm_cases()) {
             if (row.speed && row.name == one.name && row.method == "rrm")
                 text += targets(row, one);

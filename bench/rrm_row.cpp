@@ -16,6 +16,7 @@ void add(Json& line, const RrmSpeed& s) {
     line.update(Json{{"fps_full", s.fps_full()},
                      {"fps_ours", s.fps_ours()},
                      {"speedup", s.speedup()},
+                     {"mean_rate_ours", s.mean_rate},
                      {"efficiency", s.efficiency()},
                      {"clock", s.device_clock ? "device" : "wall"},
                      {"ms_full", s.ms_full},
@@ -36,6 +37,7 @@ RrmSpeed speed_of(const nlohmann::json& json) {
     s.device_clock = json.at("clock").get<std::string>() == "device";
     read("ms_full", s.ms_full);
     read("ms_ours", s.ms_ours);
+    read("mean_rate_ours", s.mean_rate);
     for (std::size_t i = 0; i < kStageGroups; ++i)
         json.at("ms").at(name(static_cast<StageGroup>(i))).get_to(s.ms[i]);
     read("wall_ms_full", s.wall_ms_full);

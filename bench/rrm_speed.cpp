@@ -11,7 +11,7 @@ namespace {
 struct Contestant {
     render::Renderer renderer;
     std::uint32_t next = 0; // frame
-    Series medians;
+    Series medians = {};
 
     // The median of the measured frames becomes one entry.
     void look(const scene::Camera& camera, const frame::Gaze& gaze, std::uint32_t warm_up,
@@ -31,6 +31,13 @@ struct Contestant {
     }
 };
 
+double mean_rate(const std::vector<double>& milliseconds) {
+    std::vector<double> rates;
+    for (const double ms : milliseconds)
+        rates.push_back(1000.0 / ms);
+    return mean(rates);
+}
+
 RrmSpeed compare(const Series& full, const Series& ours) {
     RrmSpeed speed;
     speed.wall_ms_full = metric::median(full.wall_ms);
@@ -42,6 +49,7 @@ RrmSpeed compare(const Series& full, const Series& ours) {
         speed.ms_full = speed.wall_ms_full;
         speed.ms_ours = speed.wall_ms_ours;
     }
+    speed.mean_rate = mean_rate(speed.device_clock ? ours.device_ms : ours.wall_ms);
     for (std::size_t g = 0; g < kStageGroups; ++g)
         speed.ms[g] = mean(ours.group_ms[g]);
     speed.samples_full = mean(full.camera_rays);

@@ -77,6 +77,7 @@ void Dynamics::add_sphere(std::size_t sphere) {
     body->setRestitution(physics_.restitution);
     body->setFriction(physics_.friction);
     body->setDamping(kLinearDamping, kAngularDamping);
+    body->setFlags(0); // no gyroscopic torque, which spheres do not have
     body->setUserIndex(0);
     // A sphere that sleeps would stay on a coarse surface after the gaze has come.
     body->setActivationState(DISABLE_DEACTIVATION);

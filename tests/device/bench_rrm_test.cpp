@@ -91,8 +91,8 @@ TEST(BenchRrm, ALineIsReadBackAndNotMeasuredAgain) {
     RrmProgress progress;
     progress.row = [&](const RrmRow&, bool is_new) { measured += is_new ? 1 : 0; };
     const auto second = run_rrm(options, progress);
-    ASSERT_EQ(first.size(), 3u);
-    ASSERT_EQ(second.size(), 3u);
+    ASSERT_GE(first.size(), 3u); // more physics where the bunnies are found
+    ASSERT_EQ(second.size(), first.size());
     EXPECT_EQ(measured, 0u);
     for (std::size_t i = 0; i < first.size(); ++i)
         EXPECT_EQ(json_line(first[i]), json_line(second[i]));

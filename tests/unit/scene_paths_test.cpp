@@ -22,12 +22,13 @@ namespace fs = std::filesystem;
 // Beyond, building a tree takes too long for a test of everyday.
 constexpr std::uint64_t kMaxTriangles = 1'000'000;
 
-// All that fly: those of `bench thesis` are stills.
+// All that fly: the views of `bench thesis` and of what physics moves stand still.
 std::vector<std::string> scene_files() {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(fs::path(MACULA_SOURCE_DIR) / "scenes/files")) {
-        if (!entry.path().stem().string().starts_with("thesis_"))
-            names.push_back(entry.path().stem().string());
+        const std::string name = entry.path().stem().string();
+        if (!name.starts_with("thesis_") && !name.ends_with("_spheres"))
+            names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     return names;
