@@ -89,6 +89,8 @@ QualityFlight::QualityFlight(const QualityOptions& options, const compute::Devic
                              const std::string& scene)
     : options_(options), name_(scene_name(scene)),
       scene_(load_fly_through(scene, options.scene_path)), display_(display_of(options)) {
+    if (scene_.physics) // all runs see the same spheres, however they look at them
+        scene_.physics->acuity.exact_degrees = 180.0f;
     Wearer wearer = wearer_of(options, display_);
     gaze_name_ = wearer.gaze_name;
     head_name_ = wearer.head_name;

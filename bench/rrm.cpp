@@ -29,7 +29,8 @@ constexpr std::array kQuality = {12u, 132u};
 
 auto key(const RrmRow& r) {
     return std::tie(r.name, r.method, r.scene, r.n, r.depth, r.display, r.width, r.height,
-                    r.columns, r.rows, r.frames, r.ring_edges, r.device);
+                    r.columns, r.rows, r.frames, r.warm_up, r.fovea, r.seed, r.gaze, r.ring_edges,
+                    r.device);
 }
 
 void require(bool holds, const char* what) {
@@ -118,6 +119,9 @@ class Run {
         row.columns = options_.columns;
         row.rows = options_.rows;
         row.frames = options_.frames;
+        row.warm_up = options_.warm_up;
+        row.seed = options_.seed;
+        row.fovea = options_.fovea;
         return row;
     }
 
@@ -169,6 +173,7 @@ class Run {
             RrmRow row = blank("quality", method, scene, at, depth);
             row.columns = row.rows = 0;
             row.frames = options_.quality_frames;
+            row.gaze = options_.gaze;
             if (take(row))
                 continue;
             rows.push_back(row);
@@ -176,7 +181,8 @@ class Run {
         }
         if (rows.empty())
             return;
-        const auto scores = measure_quality(at, options_, missing, depth, noted("quality"));
+        const auto scores =
+            measure_quality(at, options_, missing, depth, kQuality.back(), noted("quality"));
         for (std::size_t i = 0; i < rows.size(); ++i) {
             rows[i].quality = scores[i];
             keep(rows[i]);

@@ -80,7 +80,10 @@ struct RrmRow {
     std::string method, scene; // method: "rrm", "lowres_rings"; of physics: none
     std::uint32_t n = 0;       // of rrm; of lowres_rings: of the rrm that it has as many samples as
     std::uint32_t depth = 0, width = 0, height = 0, columns = 0, rows = 0, frames = 0;
+    std::uint32_t warm_up = 0, seed = 0;
+    float fovea = 0.0f;                // degrees
     std::array<float, 3> ring_edges{}; // of lowres_rings, degrees
+    std::string gaze;                  // of the quality
     std::string display, device, driver, commit;
     std::optional<RrmSpeed> speed;
     std::optional<RrmQuality> quality;

@@ -18,10 +18,10 @@ std::vector<RrmSpeed> measure_speed(const RrmScene& scene, const RrmOptions& opt
                                     std::span<const RrmMethod> methods, std::uint32_t depth,
                                     const RrmNote& note);
 
-// The methods beside `full` along the scene's path, after as many frames as the longest refresh
-// cycle has.
+// The methods beside `full` along the scene's path, from frame `first` on, before which they have
+// rendered all frames.
 std::vector<RrmQuality> measure_quality(const RrmScene& scene, const RrmOptions& options,
                                         std::span<const RrmMethod> methods, std::uint32_t depth,
-                                        const RrmNote& note);
+                                        std::uint32_t first, const RrmNote& note);
 
 } // namespace macula::bench

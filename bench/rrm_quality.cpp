@@ -45,19 +45,11 @@ RrmQuality quality_of(const Judged& one, std::uint32_t frames) {
             one.samples / frames};
 }
 
-// Frames until nothing is older than a refresh cycle.
-std::uint32_t longest_cycle(std::span<const RrmMethod> methods) {
-    std::uint32_t frames = 1;
-    for (const RrmMethod& method : methods)
-        frames = std::max(frames, method.name == "rrm" ? method.n : 1);
-    return frames;
-}
-
 } // namespace
 
 std::vector<RrmQuality> measure_quality(const RrmScene& scene, const RrmOptions& options,
                                         std::span<const RrmMethod> methods, std::uint32_t depth,
-                                        const RrmNote& note) {
+                                        std::uint32_t first, const RrmNote& note) {
     const scene::Display& display = scene.display();
     const scene::GazeContext context{display, scene::Eye::mono, {}};
     const FlightView view(scene.scene(), display, scene::parse_gaze(options.gaze, context));
@@ -65,7 +57,6 @@ std::vector<RrmQuality> measure_quality(const RrmScene& scene, const RrmOptions&
     std::vector<Judged> all;
     for (const RrmMethod& method : methods)
         all.push_back({scene.make(method, depth), metric::TemporalScores{}});
-    const std::uint32_t first = longest_cycle(methods);
     for (std::uint32_t frame = 0; frame < first + options.quality_frames; ++frame) {
         note(fmt::format("quality, frame {} of {}", frame + 1, first + options.quality_frames));
         const FlightFrame seen = view.at(frame);

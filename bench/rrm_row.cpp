@@ -106,6 +106,10 @@ std::string json_line(const RrmRow& r) {
               {"columns", r.columns},
               {"rows", r.rows},
               {"frames", r.frames},
+              {"warm_up", r.warm_up},
+              {"seed", r.seed},
+              {"fovea", r.fovea},
+              {"gaze", r.gaze},
               {"ring_edges", r.ring_edges}};
     if (r.speed)
         add(line, *r.speed);
@@ -133,6 +137,10 @@ RrmRow parse_rrm_row(const std::string& line) {
         read("columns", r.columns);
         read("rows", r.rows);
         read("frames", r.frames);
+        read("warm_up", r.warm_up);
+        read("seed", r.seed);
+        read("fovea", r.fovea);
+        read("gaze", r.gaze);
         read("ring_edges", r.ring_edges);
         if (json.contains("fps_full"))
             r.speed = speed_of(json);

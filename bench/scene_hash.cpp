@@ -69,6 +69,33 @@ void add(Digest& digest, const scene::Light& light) {
                light.edge_u, light.edge_v, light.attenuation_distance, light.angle);
 }
 
+template <class T>
+void add(Digest& digest, const scene::Track<T>& track) {
+    digest.add(track.interpolation);
+    digest.list(track.frames);
+    digest.list(track.values);
+}
+
+void add(Digest& digest, const scene::Motion& motion) {
+    for (const scene::MotionNode& node : motion.nodes) {
+        digest.add(node.parent, node.rest.translation, node.rest.rotation, node.rest.scale);
+        add(digest, node.translation);
+        add(digest, node.rotation);
+        add(digest, node.scale);
+    }
+    for (const scene::MovedInstance& moved : motion.instances)
+        digest.add(moved.instance, moved.node, moved.node_from_object);
+    digest.add(motion.period);
+}
+
+void add(Digest& digest, const scene::Physics& p) {
+    digest.list(p.spheres);
+    digest.list(p.obstacles);
+    digest.add(p.radius, p.gravity, p.frame_rate, p.seed, p.speed, p.reach, p.restitution,
+               p.friction, p.acuity.exact_degrees, p.acuity.levels_per_degree,
+               p.acuity.coarsest_level);
+}
+
 } // namespace
 
 std::string scene_hash(const scene::Scene& scene) {
@@ -89,6 +116,9 @@ std::string scene_hash(const scene::Scene& scene) {
     all(scene.textures);
     all(scene.lights);
     digest.add(scene.ambient, scene.background, scene.ambient_occlusion_radius);
+    add(digest, scene.motion);
+    if (scene.physics)
+        add(digest, *scene.physics);
     return digest.text();
 }
 

@@ -9,6 +9,7 @@ namespace {
 enum class Blend : std::uint8_t { step, linear, smooth };
 
 constexpr double kMaxFrame = 1e7, kMaxDegrees = 36000.0, kLeastScale = 1e-9, kMostScale = 1e9;
+constexpr std::size_t kMaxKeys = std::size_t{1} << 20; // of a node's turns
 constexpr float kLongestArc = 90.0f; // degrees between keys, which then take the way that is meant
 
 // A rotation as it is written: as a quaternion, or as an angle about an axis.
@@ -64,6 +65,9 @@ void add_turn(const TomlTable& table, float frame, const Turn& turn,
     if (blend == Blend::smooth && std::fabs(degrees) >= 180.0f)
         table.fail("degrees", "smooth keys turn by less than 180 degrees each");
     const float arcs = blend == Blend::linear ? std::ceil(std::fabs(degrees) / kLongestArc) : 0.0f;
+    if (node.rotation.frames.size() > kMaxKeys)
+        table.fail("degrees",
+                   "the turns of this node need more than " + std::to_string(kMaxKeys) + " keys");
     for (float i = 1.0f; i < arcs; ++i) {
         const float between = from + (frame - from) * (i / arcs);
         if (!(between > node.rotation.frames.back() && between < frame))

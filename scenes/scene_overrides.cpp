@@ -1,6 +1,7 @@
 #include "scenes/scene_overrides.hpp"
 
 #include <array>
+#include <set>
 
 #include "scenes/mover.hpp"
 
@@ -50,6 +51,29 @@ void transform_motion(Motion& motion, UpAxis up, float scale) {
     }
 }
 
+// Spheres stay rigid: what grows is their meshes, not their transforms.
+void transform_physics(Scene& scene, UpAxis up, float scale) {
+    Physics& physics = *scene.physics;
+    std::set<std::uint32_t> meshes;
+    for (const std::uint32_t sphere : physics.spheres) {
+        if (sphere >= scene.instances.size())
+            continue; // refused by validate()
+        Instance& instance = scene.instances[sphere];
+        if (instance.world_from_object.is_identity() || instance.mesh >= scene.meshes.size())
+            continue;
+        meshes.insert(instance.mesh);
+        for (glm::vec4& row : instance.world_from_object.row)
+            row = glm::vec4(glm::vec3(row) / scale, row.w);
+    }
+    for (const std::uint32_t mesh : meshes)
+        for (glm::vec3& p : scene.meshes[mesh].positions)
+            p *= scale;
+    physics.gravity = turned(physics.gravity, up) * scale;
+    physics.radius *= scale;
+    physics.speed *= scale;
+    physics.reach *= scale;
+}
+
 template <typename T>
 void assign(T& target, const std::optional<T>& value) {
     if (value)
@@ -97,6 +121,8 @@ void transform_scene(Scene& scene, UpAxis up, float scale) {
         key.target = turned(key.target, up) * scale;
     }
     scene.ambient_occlusion_radius *= scale;
+    if (scene.physics)
+        transform_physics(scene, up, scale);
 }
 
 void override_material(const TomlTable& table, Scene& scene) {

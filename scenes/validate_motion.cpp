@@ -250,6 +250,9 @@ bool is_rigid(const Transform& t) {
     return true;
 }
 
+// Of physics: Bullet needs about a hundred bytes for each, and every instance has its own.
+constexpr std::uint64_t kMostObstacleTriangles = std::uint64_t{1} << 24;
+
 void check_spheres(const Scene& scene, const Physics& physics, std::vector<bool>& moved) {
     for (const std::uint32_t sphere : physics.spheres) {
         const std::string where = scene.name + ": sphere " + std::to_string(sphere) + " of physics";
@@ -290,13 +293,19 @@ void validate_physics(const Scene& scene, const Physics& physics) {
     for (const MovedInstance& instance : scene.motion.instances)
         moved[instance.instance] = true;
     check_spheres(scene, physics, moved);
+    std::uint64_t triangles = 0;
     for (const std::uint32_t obstacle : physics.obstacles) {
         if (obstacle >= scene.instances.size())
             throw SceneError(where + "obstacle " + std::to_string(obstacle) + " of " +
                              std::to_string(scene.instances.size()) + " instances");
         if (moved[obstacle])
             throw SceneError(where + "obstacle " + std::to_string(obstacle) + " moves");
+        triangles += scene.meshes[scene.instances[obstacle].mesh].triangles.size();
     }
+    if (triangles > kMostObstacleTriangles)
+        throw SceneError(where + "the obstacles have " + std::to_string(triangles) +
+                         " triangles, each instance's counted; at most " +
+                         std::to_string(kMostObstacleTriangles) + " are possible");
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "host/render/device_scene.hpp"
 
+#include <algorithm>
+
 namespace macula::render {
 
 DeviceScene::DeviceScene(const compute::Device& on, const scene::Scene& scene,
@@ -23,7 +25,8 @@ void DeviceScene::set_transforms(std::span<const scene::Transform> world_from_ob
 
 void DeviceScene::begin_frame(std::uint64_t count, std::uint32_t frame,
                               const scene::Observer& observer) {
-    if (count <= frames_)
+    // A renderer that lags behind the others may show another frame of a scene that moves.
+    if (count <= frames_ && !(mover_.moves() && frame != shown_))
         return;
     if (mover_.moves())
         set_transforms(mover_.at(frame, observer));
@@ -32,7 +35,8 @@ void DeviceScene::begin_frame(std::uint64_t count, std::uint32_t frame,
         --frames_to_place_;
     }
     forget_motion_ = false;
-    frames_ = count;
+    frames_ = std::max(frames_, count);
+    shown_ = frame;
 }
 
 void DeviceScene::place() {

@@ -54,6 +54,7 @@ class DeviceScene {
     void place();
 
     std::uint64_t frames_ = 0;
+    std::uint32_t shown_ = 0; // the scene's frame in which things stand
     scene::Mover mover_;
     std::vector<scene::Transform> transforms_;
     // Frames for which the transforms must still be set: the one in which something moved, and the

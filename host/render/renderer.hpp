@@ -127,7 +127,8 @@ class Renderer {
     // render() throws std::invalid_argument as frame::DeviceGeometry::set_transforms does.
     // Renderers that share a scene move it for one another.
     void set_transforms(std::span<const scene::Transform> world_from_object);
-    // Forgets the last frame: its camera and the method's history.
+    // Forgets the last frame: its camera, the method's history and how objects moved. Renderers
+    // that share a scene that moves are reset together, before the next frame of any.
     void reset();
 
     const Options& options() const;

@@ -65,7 +65,7 @@ struct RrmOptions {
 // "horizontal" and the like. Throws std::invalid_argument.
 RefreshOrder parse_refresh_order(std::string_view text);
 const char* name(RefreshOrder order);
-// Sets the group of N blocks that is nearest to a square of pixels. Throws std::invalid_argument
+// Sets the group of N blocks that is nearest to a square of blocks. Throws std::invalid_argument
 // for N out of 1..132.
 void set_group(RrmOptions& options, std::uint32_t blocks);
 

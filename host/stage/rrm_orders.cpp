@@ -28,10 +28,21 @@ std::vector<std::uint32_t> sorted_by(std::uint32_t blocks, Key key) {
     return order;
 }
 
+// Where a block of the group (x, y) lies: column | row << 16 from the first block of its packet.
+std::uint32_t place_in_packet(const RrmOptions& o, std::uint32_t x, std::uint32_t y,
+                              std::uint32_t block) {
+    const std::uint32_t across = 4 / o.block_width, down = o.block_width; // groups of a packet
+    const std::uint32_t column = block % o.group_width, row = block / o.group_width;
+    if (o.interlaced)
+        return (column * across + x % across) | (row * down + y % down) << 16;
+    return (x % across * o.group_width + column) | (y % down * o.group_height + row) << 16;
+}
+
 std::vector<std::uint32_t> order_of_group(const RrmOptions& o, std::uint32_t group_x,
                                           std::uint32_t group_y,
                                           const std::vector<std::uint16_t>& mask) {
     const std::uint32_t blocks = o.group_width * o.group_height;
+    const std::uint32_t across = 4 / o.block_width, down = o.block_width; // groups of a packet
     return sorted_by(blocks, [&](std::uint32_t block) -> std::uint32_t {
         const std::uint32_t x = block % o.group_width, y = block / o.group_width;
         switch (o.order) {
@@ -45,19 +56,11 @@ std::vector<std::uint32_t> order_of_group(const RrmOptions& o, std::uint32_t gro
             break;
         }
         constexpr std::uint32_t side = MACULA_NOISE_SIDE;
-        return mask[(group_y * o.group_height + y) % side * side +
-                    (group_x * o.group_width + x) % side];
+        const std::uint32_t at = place_in_packet(o, group_x, group_y, block);
+        const std::uint32_t column = group_x / across * across * o.group_width + (at & 0xffffu);
+        const std::uint32_t row = group_y / down * down * o.group_height + (at >> 16);
+        return mask[row % side * side + column % side];
     });
-}
-
-// Where a block of the group (x, y) lies: column | row << 16 from the first block of its packet.
-std::uint32_t place_in_packet(const RrmOptions& o, std::uint32_t x, std::uint32_t y,
-                              std::uint32_t block) {
-    const std::uint32_t across = 4 / o.block_width, down = o.block_width; // groups of a packet
-    const std::uint32_t column = block % o.group_width, row = block / o.group_width;
-    if (o.interlaced)
-        return (column * across + x % across) | (row * down + y % down) << 16;
-    return (x % across * o.group_width + column) | (y % down * o.group_height + row) << 16;
 }
 
 } // namespace

@@ -128,14 +128,21 @@ PixelRectangle foveal_rectangle(const shared::FrameParams& params, float degrees
     return {x0, y0, x1, y1};
 }
 
+// The squared cosine of half the angle between directions on either side of an axis.
+float half_angle(float tangent_a, float tangent_b) {
+    const float cosine = (1.0f - tangent_a * tangent_b) /
+                         std::sqrt((1.0f + tangent_a * tangent_a) * (1.0f + tangent_b * tangent_b));
+    return 0.5f * (1.0f + cosine);
+}
+
+// True where the view has turned by more than the smaller of its half angles of view.
 bool is_cut(const shared::FrameParams& params) {
     const shared::Camera& c = params.camera;
-    const auto half_angle = [](float a, float b) { return (std::atan(a) + std::atan(b)) * 0.5f; };
     const float smaller =
-        std::min(half_angle(c.tan_left, c.tan_right), half_angle(c.tan_up, c.tan_down));
+        std::max(half_angle(c.tan_left, c.tan_right), half_angle(c.tan_up, c.tan_down));
     const float turned = shared::dot3(shared::vector_at(c.forward),
                                       shared::vector_at(params.previous_camera.forward));
-    return turned < std::cos(smaller);
+    return turned < 0.0f || turned * turned < smaller;
 }
 
 RefreshCycle::RefreshCycle(const RrmOptions& options, std::uint32_t width, std::uint32_t height)

@@ -94,7 +94,8 @@ static inline bool is_significant(global const float* difference, int x, int y, 
     float sum = 0.0f, squares = 0.0f;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
-            const float there = difference[texel_index(x + i, y + j, across, down)];
+            const float from = difference[texel_index(x + i, y + j, across, down)];
+            const float there = from >= ANOTHER_SURFACE ? 0.0f : from; /* says nothing of light */
             sum += there;
             squares = fma(there, there, squares);
         }

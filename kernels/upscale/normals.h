@@ -18,8 +18,8 @@ static inline float pack_normal(float3 n) {
     const float share = m_divide(1.0f, size);
     float a = n.x * share, b = n.y * share;
     if (n.z < 0.0f) {
-        const float folded = copysign(1.0f - fabs(b), a);
-        b = copysign(1.0f - fabs(a), b);
+        const float folded = copysign(fma(-fabs(n.y), share, 1.0f), a);
+        b = copysign(fma(-fabs(n.x), share, 1.0f), b);
         a = folded;
     }
     const float x = rint(fma(a, NORMAL_STEPS, NORMAL_STEPS));

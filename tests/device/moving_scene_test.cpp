@@ -200,4 +200,18 @@ TEST(MovingScene, TwoViewsShareOneMotionAndBeginAnewTogether) {
     expect_motion(21, -1.0f);
 }
 
+TEST(MovingScene, ViewsThatFlyOneAfterTheOtherSeeTheirOwnFrames) {
+    const scene::Scene scene = panel_on_its_way(72);
+    const auto shared = std::make_shared<render::DeviceScene>(device(), scene);
+    render::Renderer first(shared, scene, options()), second(shared, scene, options());
+    render::Renderer alone(device(), scene, options());
+    for (std::uint32_t frame = 10; frame < 15; ++frame)
+        first.render(frame);
+    for (std::uint32_t frame = 10; frame < 13; ++frame) {
+        second.render(frame);
+        alone.render(frame);
+        EXPECT_EQ(second.hash(), alone.hash()) << "frame " << frame;
+    }
+}
+
 } // namespace

@@ -46,6 +46,24 @@ TEST(PhysicsFile, AddsGroundSpheresAndTheirMaterials) {
     EXPECT_EQ(scene.materials.back().reflectivity, glm::vec3(0.5f));
 }
 
+TEST(PhysicsFile, AnotherScaleAndUpAxisCarryTheFallAlong) {
+    constexpr std::uint32_t kFrame = 20;
+    const Scene plain = load("spheres");
+    const Scene doubled = load_text("procedural = \"spheres\"\nscale = 2\n");
+    Mover small(plain), large(doubled);
+    const auto from = small.at(kFrame, kObserver);
+    const auto to = large.at(kFrame, {2.0f * kObserver.eye, kObserver.gaze});
+    for (const std::uint32_t sphere : plain.physics->spheres) {
+        const glm::vec3 expected = 2.0f * from[sphere].apply(glm::vec3(0.0f));
+        EXPECT_LT(glm::distance(to[sphere].apply(glm::vec3(0.0f)), expected),
+                  0.01f * doubled.physics->radius)
+            << sphere;
+    }
+    const Scene turned = load_text("procedural = \"spheres\"\nup = \"z\"\n");
+    const glm::vec3 g = plain.physics->gravity;
+    EXPECT_EQ(turned.physics->gravity, glm::vec3(g.y, g.z, g.x));
+}
+
 TEST(PhysicsFile, MistakesNameTheirKey) {
     EXPECT_NE(message_of("procedural = \"cornell\"\n[physics]\nradius = 10\n").find("start"),
               std::string::npos);
