@@ -31,4 +31,8 @@ if(Git_FOUND)
   if(NOT failed)
     set(MACULA_COMMIT "${commit}")
   endif()
+  if(EXISTS ${CMAKE_SOURCE_DIR}/.git/logs/HEAD) # grows with every commit
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+                 ${CMAKE_SOURCE_DIR}/.git/logs/HEAD)
+  endif()
 endif()
