@@ -56,6 +56,15 @@ FlightFrame FlightView::at(std::uint32_t frame) const {
     return result;
 }
 
+scene::Display sized_display(const std::string& name, std::uint32_t width, std::uint32_t height) {
+    scene::Display display = scene::find_display(name);
+    if (width != 0) {
+        display.width = width;
+        display.height = height;
+    }
+    return display;
+}
+
 frame::Tangents tangents_of(const scene::Display& display) {
     const scene::EyeView& eye = display.eye(scene::Eye::mono);
     return {static_cast<float>(eye.tan_left), static_cast<float>(eye.tan_right),

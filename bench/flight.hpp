@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "host/render/renderer.hpp"
 #include "scenes/gaze/source.hpp"
@@ -52,6 +53,9 @@ class FlightView {
     scene::GazePointer gaze_;
     std::optional<scene::RecordedHead> head_;
 };
+
+// scene::find_display with another size in pixels, unless `width` is 0.
+scene::Display sized_display(const std::string& name, std::uint32_t width, std::uint32_t height);
 
 // The middle eye's field of view as the renderer takes it.
 frame::Tangents tangents_of(const scene::Display& display);

@@ -45,7 +45,8 @@ class Flight {
   public:
     Flight(const FoveationOptions& options, compute::Device& device, const std::string& name)
         : options_(options), device_(device), name_(scene_name(name)),
-          scene_(load_fly_through(name, options.scene_path)), display_(display_of(options)),
+          scene_(load_fly_through(name, options.scene_path)),
+          display_(sized_display(options.display, options.width, options.height)),
           gaze_name_(gaze_of(options, display_)->describe()),
           view_(scene_, display_, gaze_of(options, display_)) {}
 
@@ -87,15 +88,6 @@ class Flight {
     }
 
   private:
-    static scene::Display display_of(const FoveationOptions& options) {
-        scene::Display display = scene::find_display(options.display);
-        if (options.width != 0) {
-            display.width = options.width;
-            display.height = options.height;
-        }
-        return display;
-    }
-
     static scene::GazePointer gaze_of(const FoveationOptions& options,
                                       const scene::Display& display) {
         return scene::parse_gaze(options.gaze, {display, scene::Eye::mono, {}});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <vector>
 
+#include "host/metric/statistics.hpp"
 #include "scenes/physics/world.hpp"
 
 namespace macula::bench {
@@ -60,12 +61,6 @@ float deepest(World& world, const Observer& observer, std::uint32_t frames) {
     return most;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 } // namespace
 
 PhysicsResult measure_physics(const scene::Scene& scene, const PhysicsOptions& options) {
@@ -84,9 +79,9 @@ PhysicsResult measure_physics(const scene::Scene& scene, const PhysicsOptions& o
     PhysicsResult result;
     result.frames = options.frames;
     result.gazes = static_cast<int>(gazes.size());
-    result.ms_exact = median(plain);
-    result.ms_perceptual = median(seen);
-    result.ms_coarse = median(coarse);
+    result.ms_exact = metric::median(plain);
+    result.ms_perceptual = metric::median(seen);
+    result.ms_coarse = metric::median(coarse);
     result.speedup = result.ms_exact / result.ms_perceptual;
     result.speedup_coarse = result.ms_exact / result.ms_coarse;
 

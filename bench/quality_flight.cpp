@@ -10,15 +10,6 @@
 namespace macula::bench {
 namespace {
 
-scene::Display display_of(const QualityOptions& options) {
-    scene::Display display = scene::find_display(options.display);
-    if (options.width != 0) {
-        display.width = options.width;
-        display.height = options.height;
-    }
-    return display;
-}
-
 // Times of the stages over the frames, in the order in which they first came.
 class StageTimes {
   public:
@@ -88,7 +79,8 @@ metric::MotionField copy_motion(const render::Renderer& renderer) {
 QualityFlight::QualityFlight(const QualityOptions& options, const compute::Device& device,
                              const std::string& scene)
     : options_(options), name_(scene_name(scene)),
-      scene_(load_fly_through(scene, options.scene_path)), display_(display_of(options)) {
+      scene_(load_fly_through(scene, options.scene_path)),
+      display_(sized_display(options.display, options.width, options.height)) {
     if (scene_.physics) // all runs see the same spheres, however they look at them
         scene_.physics->acuity.exact_degrees = 180.0f;
     Wearer wearer = wearer_of(options, display_);

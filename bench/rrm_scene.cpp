@@ -7,15 +7,6 @@
 namespace macula::bench {
 namespace {
 
-scene::Display display_of(const RrmOptions& options) {
-    scene::Display display = scene::find_display(options.display);
-    if (options.width != 0) {
-        display.width = options.width;
-        display.height = options.height;
-    }
-    return display;
-}
-
 std::array<float, 3> edges(float fovea, float a) {
     return {fovea, fovea * (1.0f + a), fovea * (1.0f + 3.0f * a)};
 }
@@ -25,7 +16,7 @@ std::array<float, 3> edges(float fovea, float a) {
 RrmScene::RrmScene(const RrmOptions& options, const compute::Device& device,
                    const std::string& name)
     : options_(options), scene_(load_fly_through(name, options.scene_path)),
-      display_(display_of(options)) {
+      display_(sized_display(options.display, options.width, options.height)) {
     frame::GeometryOptions geometry;
     geometry.cache_directory = options.bvh_cache;
     on_device_ = std::make_shared<render::DeviceScene>(device, scene_, geometry);
