@@ -172,10 +172,12 @@ frame::Stage upscale(const TemporalKit& kit) {
         stage.reads.insert(stage.reads.end(), {"fovea", "sample spread"});
         stage.reads_last.emplace_back("fovea");
     }
-    stage.writes = {{"upscaled planes", 4 * MACULA_COLOUR_PLANES, pixels},
+    stage.writes = {{"upscaled planes", 4 * MACULA_UPSCALED_PLANES, pixels},
                     {"upscaled colour", 16, pixels}};
+    stage.scratch = {planes(kit.kit, "thin features", 1)};
     stage.prepare = [=, name = stage.name] {
         auto upscale = kit.kit.lane_kernel("upscale/upscale", "upscale");
+        auto find_thin = kit.kit.lane_kernel("upscale/locks", "find_thin");
         auto sharpen = kit.kit.lane_kernel("upscale/sharpen", "sharpen");
         // What is as large as before needs no sharpening.
         const float ratio = static_cast<float>(width) / static_cast<float>(kit.kit.width);
@@ -185,12 +187,18 @@ frame::Stage upscale(const TemporalKit& kit) {
             const compute::Buffer none;
             const compute::Buffer& colours = run[upscaled_from(kit)];
             const compute::Buffer fovea = kit.foveated ? run["fovea"] : none;
+            const bool disk_alone = beyond_disk(kit) == MACULA_BEYOND_SMOOTH;
+            find_thin
+                .set(kit.kit.width, kit.kit.height, disk_alone ? fovea : none, colours,
+                     run.scratch("thin features"))
+                .launch("find thin features", rendered_strips(kit.kit), kit.kit.lane_group());
             upscale
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
                      kit.foveated ? run.last("fovea") : none, colours,
-                     kit.foveated ? run["sample spread"] : none, run["followed motion"],
-                     run.last("upscaled planes"), kit.cached ? run["fresh pixels"] : none,
-                     run["upscaled planes"], run["upscaled colour"])
+                     kit.foveated ? run["sample spread"] : none, run.scratch("thin features"),
+                     run["followed motion"], run.last("upscaled planes"),
+                     kit.cached ? run["fresh pixels"] : none, run["upscaled planes"],
+                     run["upscaled colour"])
                 .launch(name, range, kit.kit.lane_group());
             sharpen
                 .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea, colours,

@@ -21,6 +21,12 @@
 #define MACULA_PLANE_WORTH 3u
 #define MACULA_COLOUR_PLANES 4u
 
+/* "upscaled planes" beside these: luma around and of thin features, where their worth says that
+ * there are any. */
+#define MACULA_PLANE_GROUND 4u
+#define MACULA_PLANE_RIDGE 5u
+#define MACULA_UPSCALED_PLANES 6u
+
 /* What the upscaler does beyond the disk of a foveated method. */
 #define MACULA_BEYOND_NOTHING 0u /* there is no disk */
 #define MACULA_BEYOND_GATHER 1u  /* gather, without jitter */

@@ -6,9 +6,11 @@
 #include "shared/surface.h"
 #include "upscale/current.h"
 #include "upscale/fovea.h"
+#include "upscale/locks.h"
 #include "upscale/neighbours.h"
 
 #define MOVING_WORTH 4.0f /* samples that a colour can be worth while the view moves ... */
+#define LOCKED_WORTH 8.0f
 #define STILL_WORTH 64.0f /* ... and while it stands still */
 /* What the picture is worth that is but interpolated, where no sample lies near. */
 #define GUESS 0.1f
@@ -17,6 +19,8 @@
 typedef struct Current {
     Real3 sum;    /* of the samples within a pixel of it, by their weights */
     Real weight;  /* 0..1 */
+    Real nearest; /* luma of the nearest sample */
+    Mask within;  /* it lies within a pixel */
     Real3 smooth; /* between all samples around it */
     Neighbours around;
 } Current;
@@ -34,14 +38,18 @@ static inline Current find_current(global const float* planes, uint pixels, cons
     c.around = no_neighbours();
     for (uint k = 0u; k < 9u; ++k) {
         const int i = (int)(k % 3u), j = (int)(k / 3u);
-        const Real3 sample = make3(source_at(planes, s, i - 1, j - 1),
-                                   source_at(planes + pixels, s, i - 1, j - 1),
-                                   source_at(planes + 2u * pixels, s, i - 1, j - 1));
+        const Real3 sample =
+            make3(source_at(planes, s, i - 1, j - 1), source_at(planes + pixels, s, i - 1, j - 1),
+                  source_at(planes + 2u * pixels, s, i - 1, j - 1));
         const Real weight = near_x.w[i] * near_y.w[j];
         c.sum = scale_add3(sample, weight, c.sum);
         c.weight = c.weight + weight;
         c.smooth = scale_add3(sample, across.w[i] * down.w[j], c.smooth);
         add_neighbour(&c.around, sample);
+        if (k == 4u) {
+            c.nearest = luma_of(sample).x;
+            c.within = weight > zero;
+        }
     }
     c.smooth = make3(m_max(c.smooth.x, zero), m_max(c.smooth.y, zero), m_max(c.smooth.z, zero));
     weigh_nine(&c.around);
@@ -52,29 +60,33 @@ static inline Current find_current(global const float* planes, uint pixels, cons
 typedef struct Past {
     Real3 colour;
     Real worth; /* 0: nothing */
+    Lock lock;
 } Past;
 
 static inline Past find_past(global const float* picture, uint pixels, const Footprint* f,
-                             Mask wanted) {
+                             global const float* dither, Mask wanted) {
     const CubicWeights across = cubic_weights_of(f->to_x), down = cubic_weights_of(f->to_y);
-    const Real worth = nearest_tap(picture + MACULA_PLANE_WORTH * pixels, f);
+    const Real packed = nearest_tap(picture + MACULA_PLANE_WORTH * pixels, f);
+    const Real life = life_of(packed), worth = worth_of(packed, life);
     Past p;
     p.colour = make3(plane_between(picture, f, &across, &down).value,
                      plane_between(picture + pixels, f, &across, &down).value,
                      plane_between(picture + 2u * pixels, f, &across, &down).value);
-    const Mask sound = wanted & (worth > splat(0.0f)) & (worth <= splat(STILL_WORTH)) &
-                       (fabs(p.colour.x) < splat(1e30f)) & (fabs(p.colour.y) < splat(1e30f)) &
-                       (fabs(p.colour.z) < splat(1e30f));
+    const Mask sound = wanted & (worth > splat(0.0f)) &
+                       (packed <= splat(MOST_PACKED)) &
+                       (worth <= splat(STILL_WORTH)) & (fabs(p.colour.x) < splat(1e30f)) &
+                       (fabs(p.colour.y) < splat(1e30f)) & (fabs(p.colour.z) < splat(1e30f));
     p.worth = sound ? worth : splat(0.0f);
+    p.lock = find_lock(picture, pixels, f, dither, sound);
     p.colour = select3(sound, p.colour, splat_vector(splat3(0.0f)));
     return p;
 }
 
 /* Last frame's place of a strip. */
 typedef struct Place {
-    Real x, y;     /* pixels of the picture */
-    Mask wanted;   /* it had one */
-    Real speed;    /* the larger component, pixels of the picture */
+    Real x, y;   /* pixels of the picture */
+    Mask wanted; /* it had one */
+    Real speed;  /* the larger component, pixels of the picture */
 } Place;
 
 static inline Place find_place(global const float* followed, uint pixels, const Strip* s,
@@ -103,10 +115,10 @@ static inline Mask in_disk(global const Fovea* fovea, Real distance) {
 kernel void upscale(global const FrameParams* restrict frame, uint target_width, uint target_height,
                     uint beyond, global const Fovea* restrict fovea,
                     global const Fovea* restrict past_fovea, global const float* restrict planes,
-                    global const float* restrict spreads, global const float* restrict followed,
-                    global const float* restrict past_upscaled,
-                    global const float* restrict fresh, global float* restrict upscaled,
-                    global float4* restrict picture) {
+                    global const float* restrict spreads, global const float* restrict thin,
+                    global const float* restrict followed,
+                    global const float* restrict past_upscaled, global const float* restrict fresh,
+                    global float* restrict upscaled, global float4* restrict picture) {
     const Strip s = strip_of_item(target_width, target_height);
     if (s.y >= s.height)
         return;
@@ -147,22 +159,28 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     place.wanted = complete ? gathered & (one < zero) : gathered & place.wanted;
     if (beyond == MACULA_BEYOND_SMOOTH)
         place.wanted = place.wanted & was_gathered(past_fovea, place.x, place.y, across, down);
-    Past past = {splat_vector(splat3(0.0f)), zero};
+    Past past = {splat_vector(splat3(0.0f)), zero, {zero, zero, zero, zero}};
     if (any_lane(place.wanted)) {
         const Footprint f = footprint_at(place.x, place.y, place.wanted, s.width, s.height);
-        past = find_past(past_upscaled, all, &f, place.wanted);
+        past = find_past(past_upscaled, all, &f, frame->jitter, place.wanted);
     }
     const Mask still = place.speed < splat(0x1p-8f);
+    const Real beside = source_at(thin, &source, 0, 0);
+    const Mask seen = gathered & (beside > splat(NOT_THIN)) & now.within;
+    const Mask holds = lock_holds(&past.lock, seen, beside, now.nearest, now.around.mean.x,
+                                  now.around.deviation.x);
     const Real reach = still ? splat(STILL_REACH) : splat(MOVING_REACH);
     const Real kept =
-        m_min(past.worth, still ? splat(STILL_WORTH) : splat(MOVING_WORTH));
+        m_min(past.worth,
+              still ? splat(STILL_WORTH) : (holds ? splat(LOCKED_WORTH) : splat(MOVING_WORTH)));
     const Real guess = m_divide(splat(GUESS) * m_max(one - now.weight, zero), one + kept);
     const Real weight = now.weight + guess;
     const Real3 sample = scale3(scale_add3(now.smooth, guess, now.sum), m_divide(one, weight));
     Real slack = splat(1e-6f);
     if (beyond != MACULA_BEYOND_NOTHING)
         slack = m_max(slack, source_at(spreads, &source, 0, 0));
-    const Real3 history = rectified(&now.around, past.colour, reach, slack);
+    Real3 history = rectified(&now.around, past.colour, reach, slack);
+    history = select3(holds, past.colour, history);
     const Real worth = kept + weight;
     const Mask known = past.worth > zero;
     const Real3 mixed = lerp3(history, sample, m_divide(weight, worth));
@@ -170,5 +188,12 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     store_plane(upscaled, &s, m_max(result.x, zero));
     store_plane(upscaled + all, &s, m_max(result.y, zero));
     store_plane(upscaled + 2u * all, &s, m_max(result.z, zero));
-    store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, m_min(worth, splat(STILL_WORTH)));
+    const Lock next =
+        next_lock(&past.lock, holds, seen, beside, now.nearest, lock_life(ratio_x * ratio_y));
+    const Real packed = fma(next.life, splat(LIFE_UNIT), m_min(worth, splat(STILL_WORTH)));
+    store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, packed);
+    if (any_lane(next.life > zero)) {
+        store_plane(upscaled + MACULA_PLANE_GROUND * all, &s, next.ground);
+        store_plane(upscaled + MACULA_PLANE_RIDGE * all, &s, next.ridge);
+    }
 }

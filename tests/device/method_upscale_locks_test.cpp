@@ -1,0 +1,163 @@
+// Lines thinner than a rendered pixel: what the upscaler keeps of them over frames.
+#include <map>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/upscale_pictures.hpp"
+
+namespace {
+using namespace macula;
+using namespace macula::test;
+using namespace macula::test::upscale;
+
+constexpr std::uint32_t kWidth = 160, kHeight = 120;
+constexpr float kGround = -10.0f; // its depth
+constexpr float kFov = 60.0f;
+constexpr float kSquare = 8.0f; // pixels
+
+// The length of a picture's pixel at a depth.
+float pixel_at(float depth) {
+    return 2.0f * std::tan(glm::radians(0.5f * kFov)) * -depth / float(kHeight);
+}
+
+// A wire through the middle of the picture; `width`: pixels.
+void add_wire(scene::Mesh& mesh, glm::vec2 middle, float degrees, float width, float depth,
+              std::uint32_t material) {
+    const float pixel = pixel_at(depth), angle = glm::radians(degrees);
+    const glm::vec3 along{std::cos(angle), std::sin(angle), 0};
+    const glm::vec3 across{-along.y, along.x, 0};
+    const glm::vec3 u = 100.0f * pixel * along, v = width * pixel * across;
+    add_quad(mesh, glm::vec3(middle * pixel, depth) - 0.5f * (u + v), u, v, material);
+}
+
+struct Wires {
+    float width = 0.3f; // pixels
+    bool textured = false;
+    float depth = -9.9f;
+};
+
+// White wires at three angles over a grey ground, or over one of many greys.
+scene::Scene wires_over_ground(const Wires& w) {
+    scene::Mesh ground, wires;
+    if (w.textured) {
+        const float cell = 4.3f * pixel_at(kGround);
+        for (int j = -25; j < 25; ++j)
+            for (int i = -30; i < 30; ++i)
+                add_quad(ground, {cell * float(i), cell * float(j), kGround}, {cell, 0, 0},
+                         {0, cell, 0}, std::uint32_t(1 + (i * 7 + j * 5 + 1000) % 3));
+    } else {
+        add_quad(ground, {-60, -60, kGround}, {120, 0, 0}, {0, 120, 0}, 1);
+    }
+    add_wire(wires, {-30.0f, 0.0f}, 73.0f, w.width, w.depth, 0);
+    add_wire(wires, {25.0f, 26.0f}, 11.0f, w.width, w.depth, 0);
+    add_wire(wires, {20.0f, -20.0f}, 38.0f, w.width, w.depth, 0);
+    const std::vector<std::uint32_t> materials = ground.triangle_material;
+    ground.triangle_material.assign(materials.size(), 0);
+    scene::Scene scene = scene_of(std::move(ground), {{0, 0, 0}, {0, 0, -1}, kFov});
+    scene.materials.resize(4);
+    scene.meshes[0].triangle_material = materials;
+    scene.meshes.push_back(std::move(wires));
+    scene.instances.push_back({1, {}, "wires"});
+    const float greys[] = {1.0f, 0.2f, 0.25f, 0.3f};
+    for (std::size_t i = 0; i < 4; ++i) {
+        scene.materials[i].diffuse = glm::vec3(0.0f);
+        scene.materials[i].emission = glm::vec3(greys[i]);
+    }
+    return scene;
+}
+
+WeierSetup small(const char* method, std::uint32_t samples = 1) {
+    WeierSetup setup = of_method(method);
+    setup.width = kWidth;
+    setup.height = kHeight;
+    setup.temporal.sharpness = 0.0f;
+    setup.samples_per_pixel = samples;
+    return setup;
+}
+
+// Over all pixels that a wire touches and their neighbours.
+struct Lines {
+    double contrast = 0.0;  // of the truth's, in the mean over frames
+    double flicker = 0.0;   // deviation over frames of the same, in squares of a few pixels
+    double error = 0.0;     // root of the mean square, of the same
+};
+
+// `step`: pixels of the picture a frame.
+Lines measure(const Wires& wires, float step, std::uint32_t warm_up = 48,
+              std::uint32_t frames = 32) {
+    const scene::Scene scene = wires_over_ground(wires);
+    Wires none = wires;
+    none.width = 0.0001f;
+    const scene::Scene empty = wires_over_ground(none);
+    WeierFrames ours(device(), scene, small("full+upscale"));
+    WeierFrames truth(device(), scene, small("full", 36));
+    WeierFrames ground(device(), empty, small("full", 36));
+    const float way = step * pixel_at(kGround);
+    double excess = 0.0, true_excess = 0.0, error = 0.0, count = 0.0;
+    Picture what, under;
+    std::map<std::pair<int, int>, std::vector<double>> squares;
+    for (std::uint32_t frame = 0; frame < warm_up + frames; ++frame) {
+        const scene::Camera view = moved(scene, {way * float(frame), 0.4f * way * float(frame), 0});
+        ours.run(frame, view);
+        if (frame < warm_up)
+            continue;
+        if (step > 0.0f || frame == warm_up) {
+            truth.run(frame, view);
+            ground.run(frame, view);
+            what = truth.read<Float4>("colour");
+            under = ground.read<Float4>("colour");
+        }
+        const Picture now = ours.read<Float4>(ours.picture());
+        std::map<std::pair<int, int>, glm::dvec2> sums;
+        for (std::size_t y = 2; y + 2 < kHeight; ++y)
+            for (std::size_t x = 2; x + 2 < kWidth; ++x) {
+                bool near = false;
+                for (std::size_t k = 0; k < 25; ++k) {
+                    const std::size_t i = (y + k / 5 - 2) * kWidth + x + k % 5 - 2;
+                    near = near || what[i].x - under[i].x > 0.02f;
+                }
+                if (!near)
+                    continue;
+                const std::size_t i = y * kWidth + x;
+                const double d = now[i].x - what[i].x;
+                excess += now[i].x - under[i].x;
+                true_excess += what[i].x - under[i].x;
+                error += d * d;
+                ++count;
+                const float across = float(x) + step * float(frame);
+                const float down = float(y) - 0.4f * step * float(frame);
+                sums[{int(std::floor(across / kSquare)), int(std::floor(down / kSquare))}] +=
+                    glm::dvec2(now[i].x - under[i].x, what[i].x - under[i].x);
+            }
+        for (const auto& [place, s] : sums)
+            if (s.y > 1.5 * wires.width)
+                squares[place].push_back(s.x / s.y);
+    }
+    Deviation all;
+    for (const auto& [place, contrasts] : squares) {
+        if (contrasts.size() < frames / 2)
+            continue;
+        Deviation one;
+        for (const double c : contrasts)
+            one.add(c);
+        for (const double c : contrasts)
+            all.add(c - one.mean());
+    }
+    return {excess / true_excess, std::sqrt(all.squares / all.count),
+            std::sqrt(error / count) * count / true_excess};
+}
+
+TEST(Locks, Measure) {
+    for (const bool textured : {false, true})
+        for (const float depth : {-9.9f, -4.0f})
+            for (const float width : {0.3f})
+                for (const float step : {0.0f, 0.37f}) {
+                    const Lines l = measure({width, textured, depth}, step);
+                    printf("textured %d depth %4.1f width %.1f step %.2f: contrast %.3f flicker "
+                           "%.3f error %.3f\n",
+                           textured, depth, width, step, l.contrast, l.flicker, l.error);
+                }
+}
+
+} // namespace
