@@ -17,10 +17,13 @@ kernel void follow_surfaces(global const FrameParams* restrict frame,
     const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, &s, 0, 0);
     const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, &s, 0, 0);
     global const float* normals = surfaces + MACULA_PLANE_NORMAL * pixels;
-    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, n.depth);
-    store_plane(range + MACULA_PLANE_MOST * pixels, &s, seam_depth(&n, own, x, y));
-    store_plane(range + MACULA_PLANE_FACING * pixels, &s, plane_at(normals, &s, 0, 0));
-    const Depths depths = {n.depth, n.depth};
+    Mask thin;
+    const Real behind = behind_thin(surfaces, pixels, &s, own, strip_inside(&s), &thin);
+    const Depths depths = {n.depth, seam_depth(&n, behind, x, y)};
+    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, depths.least);
+    store_plane(range + MACULA_PLANE_MOST * pixels, &s, depths.most);
+    const Real facing = plane_at(normals, &s, 0, 0);
+    store_plane(range + MACULA_PLANE_FACING * pixels, &s, thin ? splat(0.0f) : facing);
     const Before before = find_before(frame, &s, n.motion_x, n.motion_y, depths, past_range);
     const Mask judged = before.same & moves(n.motion_x, n.motion_y);
     const Mask same =

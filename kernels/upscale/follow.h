@@ -9,6 +9,7 @@
 #include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/normals.h"
+#include "upscale/ridge.h"
 
 /* Part by which a depth may differ from what it is expected to be. */
 #define DEPTH_TOLERANCE 0.1f
@@ -50,6 +51,35 @@ static inline Real seam_depth(const Nearest* nearest, Real own, Real motion_x, R
     const Real apart =
         m_max(fabs(nearest->motion_x - motion_x), fabs(nearest->motion_y - motion_y));
     return apart > splat(SEAM_MOTION) ? nearest->depth : own;
+}
+
+/* A thing thinner than what is rendered stands before what is behind it: no block of two by two
+ * samples around it is as near. The jitter hits it in some frames and misses it in others; neither
+ * is another surface, as long as what is behind it moves with it. */
+static inline Real behind_thin(global const float* surfaces, uint pixels, const Strip* s, Real own,
+                               Mask wanted, Mask* thin) {
+    *thin = wanted & (own < splat(0.0f));
+    Nine depths;
+    Real farthest = own;
+    for (uint k = 0u; k < 9u; ++k) {
+        const int dx = (int)(k % 3u) - 1, dy = (int)(k / 3u) - 1;
+        depths.v[k] = plane_at(surfaces + MACULA_PLANE_DEPTH * pixels, s, dx, dy);
+        farthest = m_max(farthest, depths.v[k]);
+    }
+    if (!any_lane(wanted & (farthest > own * splat(1.0f + DEPTH_TOLERANCE))))
+        return own;
+    const Beside beside = beside_middle(&depths, 0.5f * DEPTH_TOLERANCE);
+    const Real x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
+    const Real y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
+    Real apart = splat(0.0f);
+    for (uint k = 0u; k < 9u; ++k) {
+        const int dx = (int)(k % 3u) - 1, dy = (int)(k / 3u) - 1;
+        const Real to_x = plane_at(surfaces + MACULA_PLANE_MOTION_X * pixels, s, dx, dy) - x;
+        const Real to_y = plane_at(surfaces + MACULA_PLANE_MOTION_Y * pixels, s, dx, dy) - y;
+        apart = beside.above[k] ? m_max(apart, m_max(fabs(to_x), fabs(to_y))) : apart;
+    }
+    *thin = wanted & no_block_alike(beside.above) & (apart <= splat(SEAM_MOTION));
+    return *thin ? farthest : own;
 }
 
 /* The depth that the surface had in the last frame if it stood still. */
