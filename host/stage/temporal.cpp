@@ -194,7 +194,7 @@ frame::Stage upscale(const TemporalKit& kit) {
             find_thin
                 .set(kit.kit.width, kit.kit.height, disk_alone ? fovea : none, colours,
                      run.scratch("thin features"))
-                .launch("find thin features", rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch("upscale: thin features", rendered_strips(kit.kit), kit.kit.lane_group());
             upscale
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
                      kit.foveated ? run.last("fovea") : none, colours,

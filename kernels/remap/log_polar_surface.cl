@@ -116,7 +116,7 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
 /* What a strip shows: where it was, how far away, which way it faces. */
 typedef struct Shown {
     Real motion_x, motion_y;
-    Depths depths, kept; /* to look for in the last frame, and for the next one */
+    Depths depths;
     Real facing, deviation; /* a normal, or the negative of a set of them */
 } Shown;
 
@@ -126,7 +126,7 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
     const Lane4 motion = motion_at(params, motions, p);
     const Real3 range = gather4(ranges, nearest).xyz;
     const Depths depths = {range.x, range.y};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, range.z, motion.xyz.z};
     return shown;
 }
 
@@ -138,13 +138,14 @@ static inline Shown show_pixels(global const float* sampled, uint pixels, const 
     const Real x = plane_at(sampled + MACULA_PLANE_MOTION_X * pixels, s, 0, 0);
     const Real y = plane_at(sampled + MACULA_PLANE_MOTION_Y * pixels, s, 0, 0);
     const Real nearest = within ? around.depth : own;
-    const Real behind = within ? seam_depth(&around, own, x, y) : own;
-    const Depths depths = {nearest, nearest}, kept = {nearest, behind};
+    Mask thin;
+    const Real behind = behind_thin(sampled, pixels, s, own, within, &thin);
+    const Depths depths = {nearest, within ? seam_depth(&around, behind, x, y) : own};
+    const Real normal = plane_at(sampled + MACULA_PLANE_NORMAL * pixels, s, 0, 0);
     const Shown shown = {within ? around.motion_x : x,
                          within ? around.motion_y : y,
                          depths,
-                         kept,
-                         plane_at(sampled + MACULA_PLANE_NORMAL * pixels, s, 0, 0),
+                         thin ? splat(0.0f) : normal,
                          splat(0.0f)};
     return shown;
 }
@@ -158,7 +159,6 @@ static inline Shown select_shown(Mask mask, const Shown* a, const Shown* b) {
     const Shown shown = {mask ? a->motion_x : b->motion_x,
                          mask ? a->motion_y : b->motion_y,
                          select_depths(mask, a->depths, b->depths),
-                         select_depths(mask, a->kept, b->kept),
                          mask ? a->facing : b->facing,
                          mask ? a->deviation : b->deviation};
     return shown;
@@ -182,7 +182,7 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     /* At the disk's edge a pixel has neighbours that were not sampled. */
     const Mask within = distance < splat(fovea->radius - 1.5f);
     const bool some_beyond = any_lane(inside & beyond), some_within = any_lane(inside & !beyond);
-    Shown shown = {zero, zero, {zero, zero}, {zero, zero}, zero, zero};
+    Shown shown = {zero, zero, {zero, zero}, zero, zero};
     if (some_beyond) {
         const Real x = strip_middles(&s) - splat(fovea->x);
         const Real y = splat(((float)s.y + 0.5f) - fovea->y);
@@ -194,8 +194,8 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
         const Shown disk = show_pixels(sampled, pixels, &s, within);
         shown = select_shown(beyond, &shown, &disk);
     }
-    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, shown.kept.least);
-    store_plane(range + MACULA_PLANE_MOST * pixels, &s, shown.kept.most);
+    store_plane(range + MACULA_PLANE_LEAST * pixels, &s, shown.depths.least);
+    store_plane(range + MACULA_PLANE_MOST * pixels, &s, shown.depths.most);
     store_plane(range + MACULA_PLANE_FACING * pixels, &s, shown.facing);
     store_plane(spread, &s, shown.deviation);
     const Before before =

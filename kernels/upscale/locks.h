@@ -5,10 +5,12 @@
 
 #include "lib/footprint.h"
 #include "shared/planes.h"
+#include "shared/surface.h"
+#include "upscale/current.h"
 
 #define NOT_THIN -1.0f
 
-/* Frames that a lock lasts without its thing being seen: as many as it takes to ... */
+/* Frames that a lock lasts without its thing being seen: those of so many samples a pixel. */
 #define LIFE_SAMPLES 8.0f
 #define MOST_LIFE 64.0f
 /* What is beside a lock may have come so far, of its contrast, from what it was ... */
@@ -17,6 +19,8 @@
 #define GROUND_TOWARDS 0.6f
 #define RIDGE_CHANGE 0.5f
 
+/* Pixels that a thing and what lies around it may part by before its lock ends. */
+#define MOST_TRAIL 1.5f
 /* Life and worth go in one plane. */
 #define LIFE_UNIT 128.0f
 #define MOST_PACKED ((MOST_LIFE + 1.0f) * LIFE_UNIT)
@@ -100,8 +104,37 @@ MACULA_ALWAYS_INLINE Lock find_lock(global const float* picture, uint pixels, co
     return lock;
 }
 
-MACULA_ALWAYS_INLINE float lock_life(float samples) {
-    return m_min(rint(samples * LIFE_SAMPLES), MOST_LIFE);
+/* How far the nearest sample and what lies around it part in a frame, in pixels of the picture. Its
+ * neighbours have the motion of what is in front among them. */
+static inline Real parting_of(global const float* followed, uint pixels, const Source* s,
+                              float ratio_x, float ratio_y) {
+    const Real x = source_at(followed, s, 0, 0), y = source_at(followed + pixels, s, 0, 0);
+    const Real none = splat(MACULA_NO_MOTION), zero = splat(0.0f);
+    Real most = zero;
+    for (uint k = 0u; k < 9u; ++k) {
+        const int i = 2 * (int)(k % 3u) - 2, j = 2 * (int)(k / 3u) - 2;
+        const Real other_x = source_at(followed, s, i, j);
+        const Real apart = m_max(fabs(other_x - x) * splat(ratio_x),
+                                 fabs(source_at(followed + pixels, s, i, j) - y) * splat(ratio_y));
+        most = other_x < none ? m_max(most, apart) : most;
+    }
+    /* What was not there in the last frame goes its own way, for all that is known. */
+    return x < none ? most : none;
+}
+
+/* Frames; `samples`: pixels of the picture for a sample; `parting`: in pixels of the picture. What
+ * goes its own way fast has none. */
+MACULA_ALWAYS_INLINE Real lock_life(float samples, Real parting) {
+    const float life = m_min(rint(samples * LIFE_SAMPLES), MOST_LIFE);
+    const float rate = m_divide(life, MOST_TRAIL);
+    const Real frames = floor(m_divide(splat(life), m_max(parting * splat(rate), splat(1.0f))));
+    return frames >= splat(2.0f) ? frames : splat(0.0f);
+}
+
+/* By a lock: a thing of much less contrast is a mark of what lies around it. */
+MACULA_ALWAYS_INLINE Mask outshone(const Lock* lock, Real contrast) {
+    return (lock->around > splat(0.0f)) &
+           (fabs(contrast) < splat(RIDGE_CHANGE) * fabs(lock->ridge - lock->ground));
 }
 
 /* What it stands for is still there, as far as this frame's samples tell. `thin`: the luma beside
@@ -120,13 +153,13 @@ MACULA_ALWAYS_INLINE Mask lock_holds(const Lock* lock, Mask seen, Real thin, Rea
 
 /* For the next frame. */
 MACULA_ALWAYS_INLINE Lock next_lock(const Lock* lock, Mask holds, Mask seen, Real thin, Real middle,
-                                    float life) {
+                                    Real life) {
     const Real quarter = splat(0.25f), left = m_max(lock->life - splat(1.0f), splat(0.0f));
     const Real ground = fma(quarter, thin - lock->ground, lock->ground);
     const Real ridge = fma(quarter, middle - lock->ridge, lock->ridge);
     Lock next;
     next.around = splat(0.0f);
-    next.life = seen ? splat(life) : (holds ? left : splat(0.0f));
+    next.life = seen ? life : (holds ? left : splat(0.0f));
     next.ground = seen ? (holds ? ground : thin) : lock->ground;
     next.ridge = seen ? (holds ? ridge : middle) : lock->ridge;
     return next;

@@ -10,7 +10,7 @@
 #include "upscale/neighbours.h"
 
 #define MOVING_WORTH 4.0f /* samples that a colour can be worth while the view moves ... */
-#define LOCKED_WORTH 8.0f
+#define LOCKED_WORTH 8.0f /* ... and where a lock holds it */
 #define STILL_WORTH 64.0f /* ... and while it stands still */
 /* What the picture is worth that is but interpolated, where no sample lies near. */
 #define GUESS 0.1f
@@ -109,9 +109,9 @@ static inline Mask in_disk(global const Fovea* fovea, Real distance) {
     return distance < splat(fovea->radius + 2.0f);
 }
 
-/* One work-item a strip of the picture. planes: of what is rendered. thin: as of find_thin(); upscaled:
- * six planes of the picture. fresh: 0 for pixels that are means of many frames' samples, and thus without jitter;
- * null where there are none. */
+/* One work-item a strip of the picture. planes: of what is rendered. thin: as of find_thin().
+ * upscaled: six planes of the picture. fresh: 0 for pixels that are means of many frames' samples,
+ * and thus without jitter; null where there are none. */
 kernel void upscale(global const FrameParams* restrict frame, uint target_width, uint target_height,
                     uint beyond, global const Fovea* restrict fovea,
                     global const Fovea* restrict past_fovea, global const float* restrict planes,
@@ -162,7 +162,8 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     }
     const Mask still = place.speed < splat(0x1p-8f);
     const Real beside = source_at(thin, &source, 0, 0);
-    const Mask seen = gathered & (beside > splat(NOT_THIN)) & now.within;
+    const Mask seen = gathered & (beside > splat(NOT_THIN)) & now.within &
+                      !outshone(&past.lock, now.nearest - beside);
     const Mask holds = lock_holds(&past.lock, seen, beside, now.nearest, now.around.mean.x,
                                   now.around.deviation.x);
     const Real reach = still ? splat(STILL_REACH) : splat(MOVING_REACH);
@@ -184,8 +185,10 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     store_plane(upscaled, &s, m_max(result.x, zero));
     store_plane(upscaled + all, &s, m_max(result.y, zero));
     store_plane(upscaled + 2u * all, &s, m_max(result.z, zero));
-    const Lock next =
-        next_lock(&past.lock, holds, seen, beside, now.nearest, lock_life(ratio_x * ratio_y));
+    const Real parting =
+        any_lane(seen) ? parting_of(followed, pixels, &source, ratio_x, ratio_y) : zero;
+    const Lock next = next_lock(&past.lock, holds, seen, beside, now.nearest,
+                                lock_life(ratio_x * ratio_y, parting));
     const Real packed = fma(next.life, splat(LIFE_UNIT), m_min(worth, splat(STILL_WORTH)));
     store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, packed);
     if (any_lane(next.life > zero)) {
