@@ -82,7 +82,7 @@ static inline Real retention_bias(global const FrameParams* frame, Real change, 
 
 /* What a history may be worth for a sample of 1 to have the share `bias`. */
 static inline Real most_worth(Real bias) {
-    const Real share = clamped(bias, splat(1.0f / MOST_WORTH), splat(1.0f));
+    const Real share = clamped(bias, splat(1e-3f), splat(1.0f));
     return m_divide(splat(1.0f) - share, share);
 }
 
