@@ -26,4 +26,7 @@
 #define MACULA_BEYOND_GATHER 1u  /* gather, without jitter */
 #define MACULA_BEYOND_SMOOTH 2u  /* enlarge what is smooth already */
 
+/* Rows of the picture that a work-item enlarges. */
+#define MACULA_ENLARGED_ROWS 8u
+
 #endif
