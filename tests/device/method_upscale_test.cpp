@@ -143,4 +143,62 @@ TEST(Upscale, AfterAFullFovealRegionIsThatAfterMethodFullBitForBit) {
     }
 }
 
+// The place of a pixel of the picture among `from` samples, of which it has `to`.
+struct Between {
+    int nearest;
+    double weights[3];
+};
+
+Between between(std::uint32_t pixel, std::uint32_t to, std::uint32_t from) {
+    const double at = (pixel + 0.5) * from / to - 0.5, nearest = std::nearbyint(at);
+    const double t = std::abs(at - nearest), before = t * t - 0.5 * t, after = t * t + 0.5 * t;
+    return {static_cast<int>(nearest),
+            {at > nearest ? before : after, 1.0 - 2.0 * t * t, at > nearest ? after : before}};
+}
+
+// Dodgson's quadratic between the three by three samples around a pixel.
+double quadratic(const Picture& samples, int width, int height, const Between& across,
+                 const Between& down) {
+    double sum = 0.0;
+    for (int k = 0; k < 9; ++k) {
+        const int x = std::clamp(across.nearest + k % 3 - 1, 0, width - 1);
+        const int y = std::clamp(down.nearest + k / 3 - 1, 0, height - 1);
+        sum += across.weights[k % 3] * down.weights[k / 3] * samples[y * width + x].y;
+    }
+    return std::max(sum, 0.0);
+}
+
+TEST(Upscale, BeyondTheDiskThePictureIsAQuadraticBetweenItsSamples) {
+    for (const float ratio : {1.0f, 1.8f, 4.0f}) {
+        WeierSetup setup = of_method("logpolar+taa+upscale");
+        setup.width = 101; // no whole strip, no whole block of rows
+        setup.height = 75;
+        setup.temporal.ratio = ratio;
+        setup.outputs = {"fovea", "stable colour"};
+        WeierFrames frames(device(), cornell(), setup);
+        frames.run(0, cornell().cameras.front());
+        const auto fovea = frames.read<shared::Fovea>("fovea").front();
+        const Picture samples = frames.read<Float4>("stable colour");
+        const Picture picture = frames.read<Float4>(frames.picture());
+        const auto [width, height] = method::find_method(setup.method)
+                                         .render_size(setup.width, setup.height, setup.temporal);
+        double worst = 0.0;
+        std::size_t beyond = 0;
+        for (std::uint32_t i = 0; i < picture.size(); ++i) {
+            const std::uint32_t x = i % setup.width, y = i / setup.width;
+            const double dx = (x + 0.5) * width / setup.width - fovea.x;
+            const double dy = (y + 0.5) * height / setup.height - fovea.y;
+            if (std::hypot(dx, dy) < fovea.radius + 0.01)
+                continue;
+            ++beyond;
+            const double expected =
+                quadratic(samples, int(width), int(height), between(x, setup.width, width),
+                          between(y, setup.height, height));
+            worst = std::max(worst, std::abs(expected - picture[i].y));
+        }
+        EXPECT_LT(worst, 1e-5) << "ratio " << ratio;
+        EXPECT_GT(beyond, picture.size() / 2);
+    }
+}
+
 } // namespace
