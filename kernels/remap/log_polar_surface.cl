@@ -72,7 +72,10 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
         const Lane4 colour = texels_from(colours, from, whole, last);
         const Lane4 surface = texels_from(surfaces, from, whole, last);
         const Mask sampled = (i > needed) & (i <= s.width) & (colour.w > zero);
-        add_texels(&sums, sampled, luminance_of(colour.xyz), surface);
+        /* Colours are stored times their weights. */
+        const Real weight = sampled ? colour.w : splat(1.0f);
+        const Real light = m_divide(luminance_of(colour.xyz), weight);
+        add_texels(&sums, sampled, light, surface);
     }
     const Real one = splat(1.0f), share = m_divide(one, m_max(sums.count, one));
     const Real mean = sums.light * share;
