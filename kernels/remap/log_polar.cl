@@ -3,9 +3,11 @@
 #include "lib/camera.h"
 #include "lib/lane_array.h"
 #include "lib/log_polar.h"
+#include "remap/weights.h"
 #include "shared/ray.h"
 
-/* One work-item a slot: samples of the disk go to their pixels, the others to the buffer. */
+/* One work-item a slot: samples of the disk go to their pixels, the others to the buffer: times
+ * their weights, which alpha holds. */
 kernel void place_samples(global const FrameParams* restrict frame,
                           global const uint* restrict ray_count, global const uint* restrict places,
                           global const float4* restrict colours, global float4* restrict image,
@@ -18,16 +20,7 @@ kernel void place_samples(global const FrameParams* restrict frame,
     if (place < pixels)
         image[place] = colour;
     else
-        buffer[place - pixels] = colour;
-}
-
-/* A quadratic B-spline's weights for a place f in [-0.5, 0.5] from the middle one of three samples:
- * a Gaussian of half a sample but for its tails. */
-static inline void spline_weights(Real f, Real weights[3]) {
-    const Real before = 0.5f - f, after = 0.5f + f;
-    weights[0] = 0.5f * (before * before);
-    weights[1] = fma(f, -f, splat(0.75f));
-    weights[2] = 0.5f * (after * after);
+        buffer[place - pixels] = colour * weight_of_sample(colour.xyz);
 }
 
 /* What the lanes read: three weights along an axis, and for each row the index of its first texel.
@@ -37,21 +30,22 @@ typedef struct Taps {
     uint first[3][MACULA_LANES];
 } Taps;
 
-static inline void put_weights(Real place, Real middle, float weights[3][MACULA_LANES]) {
+static inline Real put_weights(Real place, Real middle, float weights[3][MACULA_LANES]) {
     Real w[3];
-    spline_weights(place - middle, w);
+    tap_weights(place - middle, w);
     for (int i = 0; i < 3; ++i)
         put_lanes(weights[i], w[i]);
+    return nearness(place - middle);
 }
 
 /* `column`, `row`: of the buffer, in texels, 0 being the edge of the first one. The buffer goes on
- * around the gaze. */
-static inline void put_taps(Real column, Real row, global const LogPolarParams* params,
+ * around the gaze. Returns how near the middle sample lies. */
+static inline Real put_taps(Real column, Real row, global const LogPolarParams* params,
                             Taps* taps) {
     const Real last = splat((float)(params->width - 1u));
     const Real middle_column = m_min(rint(column - 0.5f), last), middle_row = rint(row - 0.5f);
-    put_weights(column - 0.5f, middle_column, taps->columns);
-    put_weights(row - 0.5f, middle_row, taps->rows);
+    const Real across = put_weights(column - 0.5f, middle_column, taps->columns);
+    const Real down = put_weights(row - 0.5f, middle_row, taps->rows);
     /* The column before the middle one: a row begins with an empty texel. */
     const Int first_column = to_int(middle_column), rows = splat_int((int)params->height);
     for (int j = 0; j < 3; ++j) {
@@ -60,6 +54,7 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
         const Int kept = below >= rows ? below - rows : below;
         put_uint_lanes(taps->first[j], int_to_uint(kept * (int)params->pitch + first_column));
     }
+    return across * down;
 }
 
 /* Without the texels that hold no sample, whose alpha is 0: the sum is yet to be divided. */
@@ -76,7 +71,8 @@ static inline float4 read_taps(global const float4* buffer, const Taps* taps, ui
 }
 
 /* One work-item for MACULA_LANES slots: 4 x 4 pixels, or one. Within the disk the image holds its
- * samples, which pass into the buffer's colours towards the edge. */
+ * samples, which pass into the buffer's colours towards the edge. Alpha: 1 where a sample lies in
+ * a pixel's middle. */
 kernel void remap_log_polar(global const FrameParams* restrict frame,
                             global const LogPolarParams* restrict params,
                             global const Fovea* restrict fovea,
@@ -100,13 +96,13 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
     Taps taps;
     /* The samples lie in the buffer where the frame's jitter put them. */
     const Real column = log_polar_column(params, fovea, kept) - frame->jitter[0];
-    put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
-             log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
+    Real near = put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
+                         log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
     float4 sums[MACULA_LANES];
     for (uint lane = 0u; lane < MACULA_LANES; ++lane)
         sums[lane] = read_taps(buffer, &taps, lane);
     const Lane4 sum = lanes_of(sums);
-    const Real scale = m_divide(splat(1.0f), m_max(sum.w, splat(1e-6f)));
+    const Real scale = m_divide(splat(1.0f), m_max(sum.w, splat(LEAST_SUM)));
     Real3 colour = scale3(sum.xyz, scale);
     const Real disk = part_of_disk(fovea, distance);
     const Uint pixel = inside ? down * width + across : splat_uint(0u);
@@ -114,6 +110,7 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
         const Real3 sampled = gather4(image, pixel).xyz;
         const Real3 mixed = scale_add3(sub3(sampled, colour), disk, colour);
         colour = select3(disk > 0.0f, mixed, colour);
+        near = fma(splat(1.0f) - near, disk, near);
     }
-    scatter4(image, pixel, wanted, colour, splat(1.0f));
+    scatter4(image, pixel, wanted, colour, near);
 }

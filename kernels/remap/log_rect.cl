@@ -4,6 +4,7 @@
 #include "lib/lane_array.h"
 #include "lib/log_polar.h"
 #include "lib/log_rect.h"
+#include "remap/weights.h"
 #include "shared/ray.h"
 
 /* What the lanes read: two weights along an axis, and where. */
@@ -19,8 +20,8 @@ static inline Real first_of_two(Real place, Real* second) {
     return first;
 }
 
-/* A row of the buffer begins with an empty texel. */
-static inline void put_taps(Real column, Real row, global const LogPolarParams* params,
+/* A row of the buffer begins with an empty texel. Returns how near the nearest sample lies. */
+static inline Real put_taps(Real column, Real row, global const LogPolarParams* params,
                             Taps* taps) {
     const Int last_column = splat_int((int)params->width - 1);
     const Int last_row = splat_int((int)params->height - 1), none = splat_int(0);
@@ -35,6 +36,7 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
         const Int in_y = y < none ? none : (y > last_row ? last_row : y);
         put_uint_lanes(taps->texel[k], int_to_uint(in_y * (int)params->pitch + in_x + 1));
     }
+    return nearness(across - rint(across)) * nearness(down - rint(down));
 }
 
 /* Without the texels that hold no sample, whose alpha is 0: the sum is yet to be divided. */
@@ -48,7 +50,8 @@ static inline float4 read_taps(global const float4* buffer, const Taps* taps, ui
 }
 
 /* One work-item for MACULA_LANES slots: 4 x 4 pixels, or one. Within the disk the image holds its
- * samples, which pass into the buffer's colours towards the edge. */
+ * samples, which pass into the buffer's colours towards the edge. Alpha: 1 where a sample lies in
+ * a pixel's middle. */
 kernel void remap_log_rect(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
                            global const Fovea* restrict fovea, global const float4* restrict buffer,
@@ -71,13 +74,14 @@ kernel void remap_log_rect(global const FrameParams* restrict frame,
     const RectAxis rows = make_rect_axis(fovea->y, height, params->height);
     Taps taps;
     /* The samples lie in the buffer where the frame's jitter put them. */
-    put_taps(rect_texel(&columns, params->inverse_alpha, x) - frame->jitter[0],
-             rect_texel(&rows, params->inverse_alpha, y) - frame->jitter[1], params, &taps);
+    Real near = put_taps(rect_texel(&columns, params->inverse_alpha, x) - frame->jitter[0],
+                         rect_texel(&rows, params->inverse_alpha, y) - frame->jitter[1], params,
+                         &taps);
     float4 sums[MACULA_LANES];
     for (uint lane = 0u; lane < MACULA_LANES; ++lane)
         sums[lane] = read_taps(buffer, &taps, lane);
     const Lane4 sum = lanes_of(sums);
-    const Real scale = m_divide(splat(1.0f), m_max(sum.w, splat(1e-6f)));
+    const Real scale = m_divide(splat(1.0f), m_max(sum.w, splat(LEAST_SUM)));
     Real3 colour = scale3(sum.xyz, scale);
     const Real disk = part_of_disk(fovea, distance);
     const Uint pixel = inside ? down * width + across : splat_uint(0u);
@@ -85,6 +89,7 @@ kernel void remap_log_rect(global const FrameParams* restrict frame,
         const Real3 sampled = gather4(image, pixel).xyz;
         const Real3 mixed = scale_add3(sub3(sampled, colour), disk, colour);
         colour = select3(disk > 0.0f, mixed, colour);
+        near = fma(splat(1.0f) - near, disk, near);
     }
-    scatter4(image, pixel, wanted, colour, splat(1.0f));
+    scatter4(image, pixel, wanted, colour, near);
 }

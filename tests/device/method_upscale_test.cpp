@@ -50,17 +50,53 @@ TEST(Upscale, ByOneWithoutJitterReturnsItsInput) {
     }
 }
 
+// But for alpha, which in "colour" says how near a sample lies.
+bool same_colours(Picture a, Picture b) {
+    for (Picture* picture : {&a, &b})
+        for (Float4& pixel : *picture)
+            pixel.w = 1.0f;
+    return same_bits(a, b);
+}
+
 TEST(Antialiasing, WithoutAHistoryReturnsItsInput) {
     WeierFrames frames(device(), cornell(), of_method("logpolar+taa"));
     for (std::uint32_t frame = 0; frame < 2; ++frame) {
         frames.run(2 * frame, cornell().cameras.front());
-        EXPECT_TRUE(same_bits(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
+        EXPECT_TRUE(
+            same_colours(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
         frames.run(2 * frame + 1, cornell().cameras.front());
         EXPECT_FALSE(
-            same_bits(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
+            same_colours(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
         frames.forget();
     }
 }
+
+// A mean over frames: of all colours alike, or each with the weight that it has at rest.
+class Mean {
+  public:
+    explicit Mean(bool weighted) : weighted_(weighted) {}
+
+    void add(const Picture& picture) {
+        sums_.resize(picture.size(), {});
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            const Float4& c = picture[i];
+            const float weight = weighted_ ? c.w * c.w : 1.0f;
+            Float4& sum = sums_[i];
+            sum = {sum.x + weight * c.x, sum.y + weight * c.y, sum.z + weight * c.z,
+                   sum.w + weight};
+        }
+    }
+    Picture picture() const {
+        Picture mean = sums_;
+        for (Float4& c : mean)
+            c = {c.x / c.w, c.y / c.w, c.z / c.w, 1.0f};
+        return mean;
+    }
+
+  private:
+    bool weighted_;
+    Picture sums_;
+};
 
 TEST(Antialiasing, OfAStillViewConvergesToTheMeanOverTheJitter) {
     for (const bool disk : {true, false}) {
@@ -68,25 +104,67 @@ TEST(Antialiasing, OfAStillViewConvergesToTheMeanOverTheJitter) {
                            disk ? whole_disk("logpolar+taa") : of_method("logpolar+taa"));
         constexpr std::uint32_t kCycle = 16;
         std::vector<Picture> smoothed;
-        Picture mean;
+        Mean mean(true);
         for (std::uint32_t frame = 0; frame < 4 * kCycle; ++frame) {
             frames.run(frame, cornell().cameras.front());
             smoothed.push_back(frames.read<Float4>("stable colour"));
-            const Picture now = frames.read<Float4>("colour");
-            mean.resize(now.size(), {});
-            for (std::size_t i = 0; i < now.size(); ++i) {
-                mean[i].x += now[i].x / (4 * kCycle);
-                mean[i].y += now[i].y / (4 * kCycle);
-                mean[i].z += now[i].z / (4 * kCycle);
-            }
+            mean.add(frames.read<Float4>("colour"));
         }
-        const double first = mean_error(smoothed[0], mean);
-        const double later = mean_error(smoothed[kCycle - 1], mean);
-        const double last = mean_error(smoothed.back(), mean);
+        const double first = mean_error(smoothed[0], mean.picture());
+        const double later = mean_error(smoothed[kCycle - 1], mean.picture());
+        const double last = mean_error(smoothed.back(), mean.picture());
         // Beyond the disk a texel's jitter goes from surface to surface, and what is taken for
         // another one starts anew.
         EXPECT_LT(later, 0.5 * first) << "disk " << disk;
         EXPECT_LT(last, (disk ? 0.2 : 0.45) * first) << "disk " << disk;
+    }
+}
+
+// The mean over beyond the disk of the difference to the truth, which has no value above 1: lamps
+// are shown as white.
+double error_beyond_disk(Picture a, Picture b, int width, int height, double radius) {
+    double sum = 0.0, count = 0.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (std::hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height) < radius)
+                continue;
+            const Float4 &p = a[std::size_t(y * width + x)], &q = b[std::size_t(y * width + x)];
+            sum += std::abs(std::min(p.x, 1.0f) - std::min(q.x, 1.0f)) +
+                   std::abs(std::min(p.y, 1.0f) - std::min(q.y, 1.0f)) +
+                   std::abs(std::min(p.z, 1.0f) - std::min(q.z, 1.0f));
+            count += 3.0;
+        }
+    return sum / count;
+}
+
+TEST(Antialiasing, OfAStillViewResolvesMoreThanTheBuffersTexels) {
+    WeierSetup setup = of_method("full");
+    setup.samples_per_pixel = 64;
+    WeierFrames truth(device(), cornell(), setup);
+    truth.run(0, cornell().cameras.front());
+    const Picture reference = truth.read<Float4>("colour");
+    setup.samples_per_pixel = 1;
+    const auto error = [&](const Picture& picture) {
+        const double half = 0.5 * std::hypot(double(setup.width), double(setup.height));
+        return error_beyond_disk(picture, reference, int(setup.width), int(setup.height),
+                                 setup.log_polar.disk * half);
+    };
+    setup.method = "logpolar";
+    WeierFrames foveated(device(), cornell(), setup);
+    foveated.run(0, cornell().cameras.front());
+    const double one_frame = error(foveated.read<Float4>("colour"));
+    // Here texels of the log-rectilinear buffer take but two pixels by two.
+    for (const auto& [method, bound] : {std::pair("logpolar+taa", 0.85), {"logrect+taa", 0.97}}) {
+        setup.method = method;
+        WeierFrames frames(device(), cornell(), setup);
+        Mean mean(false);
+        for (std::uint32_t frame = 0; frame < 64; ++frame) {
+            frames.run(frame, cornell().cameras.front());
+            mean.add(frames.read<Float4>("colour"));
+        }
+        const double gathered = error(frames.read<Float4>("stable colour"));
+        EXPECT_LT(gathered, bound * error(mean.picture())) << method;
+        EXPECT_LT(gathered, 0.6 * one_frame) << method;
     }
 }
 
