@@ -177,7 +177,7 @@ frame::Stage upscale(const TemporalKit& kit) {
     }
     stage.writes = {{"upscaled planes", 4 * MACULA_UPSCALED_PLANES, pixels},
                     {"upscaled colour", 16, pixels}};
-    stage.scratch = {planes(kit.kit, "thin features", 1)};
+    stage.scratch = {planes(kit.kit, "thin features", 2)};
     stage.prepare = [=, name = stage.name] {
         auto upscale = kit.kit.lane_kernel("upscale/upscale", "upscale");
         auto find_thin = kit.kit.lane_kernel("upscale/locks", "find_thin");
@@ -195,8 +195,8 @@ frame::Stage upscale(const TemporalKit& kit) {
             const compute::Buffer fovea = kit.foveated ? run["fovea"] : none;
             const bool disk_alone = beyond_disk(kit) == MACULA_BEYOND_SMOOTH;
             find_thin
-                .set(kit.kit.width, kit.kit.height, disk_alone ? fovea : none, colours,
-                     run.scratch("thin features"))
+                .set(kit.kit.width, kit.kit.height, width, height, disk_alone ? fovea : none,
+                     colours, run["followed motion"], run.scratch("thin features"))
                 .launch("upscale: thin features", rendered_strips(kit.kit), kit.kit.lane_group());
             upscale
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,

@@ -5,13 +5,8 @@
 
 #include "lib/footprint.h"
 #include "shared/planes.h"
-#include "shared/surface.h"
-#include "upscale/current.h"
 
-#define NOT_THIN -1.0f
-
-/* Frames that a lock lasts without its thing being seen: those of so many samples a pixel. */
-#define LIFE_SAMPLES 8.0f
+/* Frames that a lock lasts at most without its thing being seen. */
 #define MOST_LIFE 64.0f
 /* What is beside a lock may have come so far, of its contrast, from what it was ... */
 #define GROUND_AWAY 0.25f
@@ -19,8 +14,6 @@
 #define GROUND_TOWARDS 0.6f
 #define RIDGE_CHANGE 0.5f
 
-/* Pixels that a thing and what lies around it may part by before its lock ends. */
-#define MOST_TRAIL 1.5f
 /* Life and worth go in one plane. */
 #define LIFE_UNIT 128.0f
 #define MOST_PACKED ((MOST_LIFE + 1.0f) * LIFE_UNIT)
@@ -47,6 +40,10 @@ typedef struct Corners {
 
 MACULA_ALWAYS_INLINE Corners corners_at(global const float* plane, const Footprint* f) {
     Corners c;
+    if (f->exact) {
+        c.v[0] = c.v[1] = c.v[2] = c.v[3] = tap_of(plane, f, 0, 0);
+        return c;
+    }
     for (int k = 0; k < 4; ++k)
         c.v[k] = tap_of(plane, f, k & 1, k >> 1);
     return c;
@@ -75,12 +72,7 @@ MACULA_ALWAYS_INLINE Lock find_lock(global const float* picture, uint pixels, co
                                     global const float* dither, Mask known) {
     const Real zero = splat(0.0f);
     Lock lock = {zero, zero, zero, zero};
-    Corners lives;
-    if (f->exact)
-        lives.v[0] = lives.v[1] = lives.v[2] = lives.v[3] =
-            tap_of(picture + MACULA_PLANE_WORTH * pixels, f, 0, 0);
-    else
-        lives = corners_at(picture + MACULA_PLANE_WORTH * pixels, f);
+    Corners lives = corners_at(picture + MACULA_PLANE_WORTH * pixels, f);
     for (uint k = 0u; k < 4u; ++k) {
         const Mask sound = known & (lives.v[k] > zero) & (lives.v[k] <= splat(MOST_PACKED));
         lives.v[k] = sound ? life_of(lives.v[k]) : zero;
@@ -102,33 +94,6 @@ MACULA_ALWAYS_INLINE Lock find_lock(global const float* picture, uint pixels, co
     lock.life = sound ? lock.life : zero;
     lock.around = sound ? lock.around : zero;
     return lock;
-}
-
-/* How far the nearest sample and what lies around it part in a frame, in pixels of the picture. Its
- * neighbours have the motion of what is in front among them. */
-static inline Real parting_of(global const float* followed, uint pixels, const Source* s,
-                              float ratio_x, float ratio_y) {
-    const Real x = source_at(followed, s, 0, 0), y = source_at(followed + pixels, s, 0, 0);
-    const Real none = splat(MACULA_NO_MOTION), zero = splat(0.0f);
-    Real most = zero;
-    for (uint k = 0u; k < 9u; ++k) {
-        const int i = 2 * (int)(k % 3u) - 2, j = 2 * (int)(k / 3u) - 2;
-        const Real other_x = source_at(followed, s, i, j);
-        const Real apart = m_max(fabs(other_x - x) * splat(ratio_x),
-                                 fabs(source_at(followed + pixels, s, i, j) - y) * splat(ratio_y));
-        most = other_x < none ? m_max(most, apart) : most;
-    }
-    /* What was not there in the last frame goes its own way, for all that is known. */
-    return x < none ? most : none;
-}
-
-/* Frames; `samples`: pixels of the picture for a sample; `parting`: in pixels of the picture. What
- * goes its own way fast has none. */
-MACULA_ALWAYS_INLINE Real lock_life(float samples, Real parting) {
-    const float life = m_min(rint(samples * LIFE_SAMPLES), MOST_LIFE);
-    const float rate = m_divide(life, MOST_TRAIL);
-    const Real frames = floor(m_divide(splat(life), m_max(parting * splat(rate), splat(1.0f))));
-    return frames >= splat(2.0f) ? frames : splat(0.0f);
 }
 
 /* By a lock: a thing of much less contrast is a mark of what lies around it. */

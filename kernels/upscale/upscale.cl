@@ -161,9 +161,13 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
         past = find_past(past_upscaled, all, &f, frame->jitter, place.wanted);
     }
     const Mask still = place.speed < splat(0x1p-8f);
-    const Real beside = source_at(thin, &source, 0, 0);
-    const Mask seen = gathered & (beside > splat(NOT_THIN)) & now.within &
-                      !outshone(&past.lock, now.nearest - beside);
+    const Real life = source_at(thin, &source, 0, 0);
+    Mask seen = gathered & (life > zero) & now.within;
+    Real beside = zero;
+    if (any_lane(seen)) {
+        beside = source_at(thin + pixels, &source, 0, 0);
+        seen = seen & !outshone(&past.lock, now.nearest - beside);
+    }
     const Mask holds = lock_holds(&past.lock, seen, beside, now.nearest, now.around.mean.x,
                                   now.around.deviation.x);
     const Real reach = still ? splat(STILL_REACH) : splat(MOVING_REACH);
@@ -185,10 +189,7 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     store_plane(upscaled, &s, m_max(result.x, zero));
     store_plane(upscaled + all, &s, m_max(result.y, zero));
     store_plane(upscaled + 2u * all, &s, m_max(result.z, zero));
-    const Real parting =
-        any_lane(seen) ? parting_of(followed, pixels, &source, ratio_x, ratio_y) : zero;
-    const Lock next = next_lock(&past.lock, holds, seen, beside, now.nearest,
-                                lock_life(ratio_x * ratio_y, parting));
+    const Lock next = next_lock(&past.lock, holds, seen, beside, now.nearest, life);
     const Real packed = fma(next.life, splat(LIFE_UNIT), m_min(worth, splat(STILL_WORTH)));
     store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, packed);
     if (any_lane(next.life > zero)) {
