@@ -1,7 +1,7 @@
 /* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
  * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
- * next frame's for others there: motion is the mean over the samples around a pixel, depth their
- * range. */
+ * next frame's for others there: motion is the mean over the samples around a pixel, at edges over
+ * those of what is in front, depth their range. */
 #include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
@@ -19,13 +19,42 @@ typedef struct Place {
 #include "remap/places_polar.h"
 #endif
 
+/* A depth. */
+#define BEHIND_ALL 2e30f
+
 /* Of three by three texels. */
 typedef struct Sums {
     Real least, most;                 /* depths */
     Real light, squares, count;       /* of their luminance */
-    Real motion_x, motion_y, movable; /* of those that were in view */
     Uint facing;                      /* a set of normals */
+    /* Of those that were in view: the nearest depth, the motion of what lies there, and the least
+     * and the greatest motion of all. */
+    Real front, motion_x, motion_y, movable;
+    Real low_x, low_y, high_x, high_y;
 } Sums;
+
+static inline Sums no_texels(void) {
+    const Real zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
+    const Real nothing = splat(MACULA_BACKGROUND_DEPTH), farther = splat(BEHIND_ALL);
+    const Sums sums = {nothing, zero, zero, zero, zero, splat_uint(0u), farther,
+                       zero,    zero, zero, none, none, -none,          -none};
+    return sums;
+}
+
+/* The edge of what is in front moves with it. */
+static inline void add_motion(Sums* sums, Mask moved, Real3 surface) {
+    const Real one = splat(1.0f), zero = splat(0.0f);
+    const Mask closer = moved & (surface.x < sums->front * splat(1.0f - DEPTH_TOLERANCE));
+    const Mask counts = moved & (surface.x <= sums->front * splat(1.0f + DEPTH_TOLERANCE));
+    sums->motion_x = (closer ? zero : sums->motion_x) + (counts ? surface.y : zero);
+    sums->motion_y = (closer ? zero : sums->motion_y) + (counts ? surface.z : zero);
+    sums->movable = (closer ? zero : sums->movable) + (counts ? one : zero);
+    sums->front = moved ? m_min(sums->front, surface.x) : sums->front;
+    sums->low_x = moved ? m_min(sums->low_x, surface.y) : sums->low_x;
+    sums->low_y = moved ? m_min(sums->low_y, surface.z) : sums->low_y;
+    sums->high_x = moved ? m_max(sums->high_x, surface.y) : sums->high_x;
+    sums->high_y = moved ? m_max(sums->high_y, surface.z) : sums->high_y;
+}
 
 static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel) {
     const Real3 surface = texel.xyz;
@@ -36,9 +65,7 @@ static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel)
     sums->squares = sampled ? fma(light, light, sums->squares) : sums->squares;
     sums->count = sums->count + (sampled ? one : zero);
     const Mask moved = sampled & (fabs(surface.y) < none) & (fabs(surface.z) < none);
-    sums->motion_x = sums->motion_x + (moved ? surface.y : zero);
-    sums->motion_y = sums->motion_y + (moved ? surface.z : zero);
-    sums->movable = sums->movable + (moved ? one : zero);
+    add_motion(sums, moved, surface);
     sums->facing = sums->facing | to_uint(sampled ? texel.w : zero);
 }
 
@@ -48,8 +75,9 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
 }
 
 /* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
- * three texels, the negative of the set of their normals; motions: their mean, the deviation of the
- * luminance, 1.
+ * three texels, the negative of the set of their normals, and the greatest depth that the next
+ * frame may look for: the least where they move apart, see seam_depth(). motions: the mean of the
+ * nearest surface's, the deviation of the luminance, that surface's depth, or 0: none has a motion.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -63,8 +91,7 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const uint pitch = params->pitch, last = pitch * params->height - 1u;
     const bool whole = s.x + MACULA_LANES + 2 <= (int)pitch;
     const Real zero = splat(0.0f);
-    Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
-                 splat_uint(0u)};
+    Sums sums = no_texels();
     for (int k = 0; k < 9; ++k) {
         /* A row begins with an empty texel. */
         const Int i = strip_columns(&s) + k % 3;
@@ -83,29 +110,45 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const Real moved = m_divide(one, m_max(sums.movable, one));
     const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
     const Mask inside = strip_inside(&s);
+    const Real apart = m_max(sums.high_x - sums.low_x, sums.high_y - sums.low_y);
+    const Real kept = apart > splat(SEAM_MOTION) ? sums.least : sums.most;
     scatter4(ranges, lanes_from(to), inside,
-             make3(sums.least, sums.most, -uint_to_real(sums.facing)), zero);
+             make3(sums.least, sums.most, -uint_to_real(sums.facing)), kept);
     scatter4(motions, lanes_from(to), inside,
              make3(sums.motion_x * moved, sums.motion_y * moved, spread),
-             sums.movable > zero ? one : zero);
+             sums.movable > zero ? sums.front : zero);
 }
 
-/* Between two by two texels; those without motion count nothing, and none at all: no motion. */
+/* Where surfaces meet, this much nearer or farther is another one. */
+#define OTHER_SURFACE 1.25f
+
+/* Between two by two texels, of those that show the surface of the nearest one; those without
+ * motion count nothing, and none at all: no motion. */
 static inline Lane4 motion_at(global const LogPolarParams* params, global const float4* motions,
                               const Place* p) {
     const Real left = floor(p->column), top = floor(p->row);
     const Real to_x = p->column - left, to_y = p->row - top;
     const Int column = to_int(left), row = to_int(top);
     const Int right = min(column + 1, splat_int((int)params->width - 1));
-    const Real one = splat(1.0f);
+    const Real one = splat(1.0f), zero = splat(0.0f);
     const Real weights[4] = {(one - to_x) * (one - to_y), to_x * (one - to_y), (one - to_x) * to_y,
                              to_x * to_y};
-    Lane4 sum = {splat_vector(splat3(0.0f)), splat(0.0f)};
+    Lane4 texels[4];
+    Real depth = zero, most = zero;
     for (int k = 0; k < 4; ++k) {
-        const Lane4 texel =
+        texels[k] =
             gather4(motions, texel_at(params, (k & 1) == 0 ? column : right, row + (k >> 1)));
-        const Real weight = weights[k] * texel.w;
-        sum.xyz = scale_add3(texel.xyz, weight, sum.xyz);
+        const Mask nearer = (texels[k].w > zero) & (weights[k] > most);
+        depth = nearer ? texels[k].w : depth;
+        most = nearer ? weights[k] : most;
+    }
+    const Real closest = depth * splat(m_divide(1.0f, OTHER_SURFACE));
+    const Real farthest = depth * splat(OTHER_SURFACE);
+    Lane4 sum = {splat_vector(splat3(0.0f)), zero};
+    for (int k = 0; k < 4; ++k) {
+        const Mask same = (texels[k].w > closest) & (texels[k].w < farthest);
+        const Real weight = same ? weights[k] : zero;
+        sum.xyz = scale_add3(texels[k].xyz, weight, sum.xyz);
         sum.w = sum.w + weight;
     }
     const Mask known = sum.w > splat(1e-3f);
@@ -127,9 +170,9 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
                                 global const float4* motions, const Place* p) {
     const Uint nearest = texel_at(params, to_int(rint(p->column)), to_int(rint(p->row)));
     const Lane4 motion = motion_at(params, motions, p);
-    const Real3 range = gather4(ranges, nearest).xyz;
-    const Depths depths = {range.x, range.y};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
+    const Lane4 texel = gather4(ranges, nearest);
+    const Depths depths = {texel.xyz.x, texel.xyz.y}, kept = {texel.xyz.x, texel.w};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, kept, texel.xyz.z, motion.xyz.z};
     return shown;
 }
 
