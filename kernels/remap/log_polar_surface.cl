@@ -1,7 +1,7 @@
 /* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
  * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
  * next frame's for others there: motion is the mean over the samples around a pixel, at edges over
- * those of what is in front, depth their range. */
+ * those of what is in front, depth their range, and of normals there are sets. */
 #include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
@@ -24,20 +24,18 @@ typedef struct Place {
 
 /* Of three by three texels. */
 typedef struct Sums {
-    Real least, most;                 /* depths */
-    Real light, squares, count;       /* of their luminance */
-    Uint facing;                      /* a set of normals */
-    /* Of those that were in view: the nearest depth, the motion of what lies there, and the least
-     * and the greatest motion of all. */
-    Real front, motion_x, motion_y, movable;
-    Real low_x, low_y, high_x, high_y;
+    Real least, most;                  /* depths */
+    Real near_x, near_y, far_x, far_y; /* motion of the nearest and of the farthest one */
+    Real light, squares, count;        /* of their luminance */
+    Real front, motion_x, motion_y, movable; /* of the nearest of those that were in view */
+    Uint facing;                       /* a set of normals */
+    Mask moving;                       /* one of them moves by itself */
 } Sums;
 
 static inline Sums no_texels(void) {
-    const Real zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
-    const Real nothing = splat(MACULA_BACKGROUND_DEPTH), farther = splat(BEHIND_ALL);
-    const Sums sums = {nothing, zero, zero, zero, zero, splat_uint(0u), farther,
-                       zero,    zero, zero, none, none, -none,          -none};
+    const Real zero = splat(0.0f);
+    const Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
+                       zero, splat(BEHIND_ALL), zero, zero, zero, splat_uint(0u), zero < zero};
     return sums;
 }
 
@@ -50,23 +48,32 @@ static inline void add_motion(Sums* sums, Mask moved, Real3 surface) {
     sums->motion_y = (closer ? zero : sums->motion_y) + (counts ? surface.z : zero);
     sums->movable = (closer ? zero : sums->movable) + (counts ? one : zero);
     sums->front = moved ? m_min(sums->front, surface.x) : sums->front;
-    sums->low_x = moved ? m_min(sums->low_x, surface.y) : sums->low_x;
-    sums->low_y = moved ? m_min(sums->low_y, surface.z) : sums->low_y;
-    sums->high_x = moved ? m_max(sums->high_x, surface.y) : sums->high_x;
-    sums->high_y = moved ? m_max(sums->high_y, surface.z) : sums->high_y;
 }
 
 static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel) {
     const Real3 surface = texel.xyz;
     const Real one = splat(1.0f), zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
-    sums->least = sampled ? m_min(sums->least, surface.x) : sums->least;
-    sums->most = sampled ? m_max(sums->most, surface.x) : sums->most;
+    const Mask nearer = sampled & (surface.x <= sums->least);
+    const Mask farther = sampled & (surface.x >= sums->most);
+    sums->least = nearer ? surface.x : sums->least;
+    sums->near_x = nearer ? surface.y : sums->near_x;
+    sums->near_y = nearer ? surface.z : sums->near_y;
+    sums->most = farther ? surface.x : sums->most;
+    sums->far_x = farther ? surface.y : sums->far_x;
+    sums->far_y = farther ? surface.z : sums->far_y;
     sums->light = sums->light + (sampled ? light : zero);
     sums->squares = sampled ? fma(light, light, sums->squares) : sums->squares;
     sums->count = sums->count + (sampled ? one : zero);
     const Mask moved = sampled & (fabs(surface.y) < none) & (fabs(surface.z) < none);
     add_motion(sums, moved, surface);
-    sums->facing = sums->facing | to_uint(sampled ? texel.w : zero);
+    sums->facing = sums->facing | to_uint(sampled ? fabs(texel.w) : zero);
+    sums->moving = sums->moving | (sampled & (texel.w < zero));
+}
+
+/* Something moves by itself before or behind something else. */
+static inline Mask is_seam(const Sums* s) {
+    const Real apart = m_max(fabs(s->near_x - s->far_x), fabs(s->near_y - s->far_y));
+    return s->moving & (apart > splat(OWN_MOTION));
 }
 
 /* The texels from an index on, of which `whole` says that none lies beyond the buffer. */
@@ -74,10 +81,13 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
     return whole ? load4(texels, first) : gather4(texels, min(lanes_from(first), splat_uint(last)));
 }
 
-/* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
- * three texels, the negative of the set of their normals, and the greatest depth that the next
- * frame may look for: the least where they move apart, see seam_depth(). motions: the mean of the
- * nearest surface's, the deviation of the luminance, that surface's depth, or 0: none has a motion.
+/* One work-item a strip of a row of texels. surfaces: as of place_surfaces(). ranges: the least and
+ * the greatest depth of three by three texels, the negative of the set of their normals, and the
+ * greatest depth that the next frame may look for: what is uncovered at a seam must not find the
+ * history that went with the nearest. motions: the mean of the nearest surface's, at a seam the
+ * nearest texel's; the deviation of the luminance; that surface's depth, or 0: none has a motion.
+ * How the two sides of a seam differ is no noise, and what the one left behind on the other no
+ * history.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -110,12 +120,14 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const Real moved = m_divide(one, m_max(sums.movable, one));
     const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
     const Mask inside = strip_inside(&s);
-    const Real apart = m_max(sums.high_x - sums.low_x, sums.high_y - sums.low_y);
-    const Real kept = apart > splat(SEAM_MOTION) ? sums.least : sums.most;
+    const Mask seam = is_seam(&sums);
+    const Mask with_nearest = seam & (fabs(sums.near_x) < splat(MACULA_NO_MOTION));
     scatter4(ranges, lanes_from(to), inside,
-             make3(sums.least, sums.most, -uint_to_real(sums.facing)), kept);
+             make3(sums.least, sums.most, -uint_to_real(sums.facing)),
+             seam ? sums.least : sums.most);
     scatter4(motions, lanes_from(to), inside,
-             make3(sums.motion_x * moved, sums.motion_y * moved, spread),
+             make3(with_nearest ? sums.near_x : sums.motion_x * moved,
+                   with_nearest ? sums.near_y : sums.motion_y * moved, seam ? zero : spread),
              sums.movable > zero ? sums.front : zero);
 }
 
@@ -170,9 +182,9 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
                                 global const float4* motions, const Place* p) {
     const Uint nearest = texel_at(params, to_int(rint(p->column)), to_int(rint(p->row)));
     const Lane4 motion = motion_at(params, motions, p);
-    const Lane4 texel = gather4(ranges, nearest);
-    const Depths depths = {texel.xyz.x, texel.xyz.y}, kept = {texel.xyz.x, texel.w};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, kept, texel.xyz.z, motion.xyz.z};
+    const Lane4 range = gather4(ranges, nearest);
+    const Depths depths = {range.xyz.x, range.xyz.y}, kept = {range.xyz.x, range.w};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, kept, range.xyz.z, motion.xyz.z};
     return shown;
 }
 
