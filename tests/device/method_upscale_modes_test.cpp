@@ -131,6 +131,31 @@ TEST_P(EachMode, WhatMovesLeavesNoTrail) {
     }
 }
 
+TEST(BeyondTheDisk, AnEdgeThatMovesStaysWhereItIs) {
+    const scene::Scene scene = board_and_wall();
+    for (const char* method : {"logpolar+taa", "logrect+taa"}) {
+        WeierSetup setup = of_method(method);
+        setup.width = 220;
+        setup.height = 180;
+        setup.log_polar.disk = 0.05f;
+        WeierFrames ours(device(), scene, setup);
+        setup.method = "full";
+        WeierFrames full(device(), scene, setup);
+        double smoothed = 0.0, single = 0.0;
+        for (std::uint32_t frame = 0; frame < 16; ++frame) {
+            const scene::Camera view = moved(scene, {0.05f * float(frame), 0.0f, 0.0f});
+            ours.run(frame, view);
+            full.run(frame, view);
+            if (frame < 8)
+                continue;
+            const Picture truth = full.read<Float4>("colour");
+            smoothed += mean_error(ours.read<Float4>("stable colour"), truth);
+            single += mean_error(ours.read<Float4>("colour"), truth);
+        }
+        EXPECT_LT(smoothed, 0.95 * single) << method;
+    }
+}
+
 // A box whose front is red and whose right side is blue, before a black wall.
 scene::Scene two_sided_box() {
     scene::Mesh wall, box;
