@@ -8,10 +8,14 @@
 namespace macula::stage {
 namespace {
 
+// Work-items of a group, also of several lanes each: strips that have nothing to do return at once,
+// and starting a group for four of them takes longer than they do.
+constexpr std::size_t kStripGroup = 64;
+
 // Strips of an image, one a work-item.
 compute::Range strips(const Kit& kit, std::uint32_t width, std::uint32_t height) {
     const std::uint64_t across = (width + kit.lanes - 1) / kit.lanes;
-    return {compute::Range::cover(across * height, kGroup / kit.lanes)};
+    return {compute::Range::cover(across * height, kStripGroup)};
 }
 
 compute::Range rendered_strips(const Kit& kit) {
@@ -204,14 +208,14 @@ frame::Stage upscale(const TemporalKit& kit) {
                      kit.foveated ? run["sample spread"] : none, run.scratch("thin features"),
                      run["followed motion"], run.last("upscaled planes"),
                      kit.cached ? run["fresh pixels"] : none, run["upscaled planes"])
-                .launch(name, range, kit.kit.lane_group());
+                .launch(name, range, {kStripGroup});
             if (beyond_disk(kit) == MACULA_BEYOND_SMOOTH)
                 enlarge.set(run.params_buffer(), width, height, colours, run["upscaled colour"])
-                    .launch("upscale beyond the disk", blocks, kit.kit.lane_group());
+                    .launch("upscale beyond the disk", blocks, {kStripGroup});
             sharpen
                 .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea,
                      run["upscaled planes"], run["upscaled colour"])
-                .launch("sharpen", range, kit.kit.lane_group());
+                .launch("sharpen", range, {kStripGroup});
         };
     };
     return stage;

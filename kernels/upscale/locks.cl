@@ -51,9 +51,9 @@ MACULA_ALWAYS_INLINE Real lock_life(float samples, Real parting) {
     return frames >= splat(2.0f) ? frames : splat(0.0f);
 }
 
-/* One work-item a strip of what is rendered. thin: the frames that the lock of a thin thing lasts, 0
- * where there is none, and the mean luma of what lies beside it. `fovea`: null, or the disk beyond
- * which nothing is gathered. */
+/* One work-item a strip of what is rendered. thin: the frames that the lock of a thin thing lasts,
+ * 0 where there is none, and the mean luma of what lies beside it. `fovea`: null, or the disk
+ * beyond which nothing is gathered. */
 kernel void find_thin(uint width, uint height, uint target_width, uint target_height,
                       global const Fovea* restrict fovea, global const float* restrict planes,
                       global const float* restrict followed, global float* restrict thin) {
