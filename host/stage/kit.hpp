@@ -71,6 +71,8 @@ struct Kit {
     compute::Kernel lane_kernel(const char* program, const char* entry) const;
     compute::Range lane_items(std::uint32_t count) const { return {count / lanes}; }
     compute::Range lane_group() const;
+    // A launch over the strips of an image, whose lanes are neighbours in a row (lib/strip.h).
+    compute::Range strips(std::uint32_t of_width, std::uint32_t of_height) const;
 };
 
 // The lanes that suit a device: CPUs run sixteen of them in one work-item faster than as sixteen.

@@ -8,14 +8,8 @@
 namespace macula::stage {
 namespace {
 
-// Strips of an image, one a work-item.
-compute::Range strips(const Kit& kit, std::uint32_t width, std::uint32_t height) {
-    const std::uint64_t across = (width + kit.lanes - 1) / kit.lanes;
-    return {compute::Range::cover(across * height, kGroup / kit.lanes)};
-}
-
 compute::Range rendered_strips(const Kit& kit) {
-    return strips(kit, kit.width, kit.height);
+    return kit.strips(kit.width, kit.height);
 }
 
 frame::Resource planes(const Kit& kit, const std::string& name, std::uint32_t count) {
@@ -91,7 +85,7 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels", strips(kit.kit, p.width, p.height),
+                .launch("summarise texels", kit.kit.strips(p.width, p.height),
                         kit.kit.lane_group());
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
@@ -180,7 +174,7 @@ frame::Stage upscale(const TemporalKit& kit) {
         // What is as large as before needs no sharpening.
         const float ratio = static_cast<float>(width) / static_cast<float>(kit.kit.width);
         const float strength = kit.sharpness * std::min(ratio - 1.0f, 1.0f);
-        const compute::Range range = strips(kit.kit, width, height);
+        const compute::Range range = kit.kit.strips(width, height);
         return [=](frame::Run& run) mutable {
             const compute::Buffer none;
             const compute::Buffer& colours = run[upscaled_from(kit)];
