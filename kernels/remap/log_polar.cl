@@ -47,8 +47,7 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
         const Int wrapped = to_int(middle_row) + (j - 1);
         const Int below = wrapped < 0 ? wrapped + rows : wrapped;
         const Int kept = below >= rows ? below - rows : below;
-        put_uint_lanes(taps->first[j], int_to_uint(kept * (int)params->pitch + first_column));
-        put_lanes(taps->rows[j], weights[j]);
+        put_row(taps, j, int_to_uint(kept * (int)params->pitch + first_column), weights[j]);
     }
 }
 

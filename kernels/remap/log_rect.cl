@@ -28,10 +28,8 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
     const Int below = min(top + 1, splat_int((int)params->height - 1));
     taps->columns[0] = one - across;
     taps->columns[1] = across;
-    put_lanes(taps->rows[0], one - down);
-    put_lanes(taps->rows[1], down);
-    put_uint_lanes(taps->first[0], int_to_uint(top * (int)params->pitch + left + 1));
-    put_uint_lanes(taps->first[1], int_to_uint(below * (int)params->pitch + left + 1));
+    put_row(taps, 0, int_to_uint(top * (int)params->pitch + left + 1), one - down);
+    put_row(taps, 1, int_to_uint(below * (int)params->pitch + left + 1), down);
 }
 
 /* One work-item a strip. Within the disk the image holds its samples, which pass into the buffer's

@@ -7,8 +7,8 @@
 #include "lib/log_polar.h"
 #include "lib/strip.h"
 
-/* What the lanes read: for each row its weight and the index of its first texel, and the weights of
- * the texels side by side from there on. */
+/* What the lanes read: for each row its weight and how many bytes its first texel lies behind the
+ * buffer's, and the weights of the texels side by side from there on. */
 typedef struct Taps {
     Real columns[MACULA_TAPS];
     float rows[MACULA_TAPS][MACULA_LANES];
@@ -17,12 +17,12 @@ typedef struct Taps {
 
 #if MACULA_LANES == 1
 
-static inline Lane4 read_taps(global const float4* texels, const Taps* taps) {
+MACULA_ALWAYS_INLINE Lane4 read_taps(global const float4* texels, const Taps* taps) {
     float4 sum = (float4)(0.0f);
     for (int i = 0; i < MACULA_TAPS; ++i) {
-        float4 column = taps->rows[0][0] * texels[taps->first[0][0] + i];
+        float4 column = taps->rows[0][0] * first_texel(texels, taps, 0, 0u)[i];
         for (int j = 1; j < MACULA_TAPS; ++j)
-            column = fma((float4)(taps->rows[j][0]), texels[taps->first[j][0] + i], column);
+            column = fma((float4)(taps->rows[j][0]), first_texel(texels, taps, j, 0u)[i], column);
         sum = i == 0 ? taps->columns[0] * column : fma((float4)(taps->columns[i]), column, sum);
     }
     const Lane4 v = {sum.xyz, sum.w};
@@ -31,18 +31,22 @@ static inline Lane4 read_taps(global const float4* texels, const Taps* taps) {
 
 #else
 
+MACULA_ALWAYS_INLINE float16 four_texels(global const float4* first) {
+    return vload16(0, (global const float*)first);
+}
+
 /* Of four texels side by side, of which the taps may be fewer: sums along their columns. */
-static inline float16 column_sums(global const float4* texels, const Taps* taps, uint lane) {
-    float16 sum = taps->rows[0][lane] *
-                  vload16(0, (global const float*)(texels + taps->first[0][lane]));
+MACULA_ALWAYS_INLINE float16 column_sums(global const float4* texels, const Taps* taps,
+                                         uint lane) {
+    float16 sum = taps->rows[0][lane] * four_texels(first_texel(texels, taps, 0, lane));
     for (int j = 1; j < MACULA_TAPS; ++j)
         sum = fma((float16)(taps->rows[j][lane]),
-                  vload16(0, (global const float*)(texels + taps->first[j][lane])), sum);
+                  four_texels(first_texel(texels, taps, j, lane)), sum);
     return sum;
 }
 
 /* Of four lanes from `lane` on; `weights`: of their columns, each four times. */
-static inline float16 sums_of_four(global const float4* texels, const Taps* taps, uint lane,
+MACULA_ALWAYS_INLINE float16 sums_of_four(global const float4* texels, const Taps* taps, uint lane,
                                    const float16 weights[MACULA_TAPS]) {
     const float16 a = column_sums(texels, taps, lane), b = column_sums(texels, taps, lane + 1u);
     const float16 c = column_sums(texels, taps, lane + 2u);
@@ -55,7 +59,7 @@ static inline float16 sums_of_four(global const float4* texels, const Taps* taps
     return sum;
 }
 
-static inline Lane4 read_taps(global const float4* texels, const Taps* taps) {
+MACULA_ALWAYS_INLINE Lane4 read_taps(global const float4* texels, const Taps* taps) {
     float16 w[4][MACULA_TAPS];
     for (int i = 0; i < MACULA_TAPS; ++i) {
         w[0][i] = taps->columns[i].s0000111122223333;
