@@ -17,7 +17,7 @@ frame::Graph make_log_space(frame::Graph graph, const stage::Kit& kit, const Opt
         kit,
         std::make_shared<stage::LogPolarBuffer>(stage::make_params(
             shape, kit.width, kit.height, kit.picture_width(), kit.picture_height())),
-        rectangular};
+        rectangular, options.smoothed};
     graph.add(stage::place_fovea(space)).add(stage::choose_samples(space));
     const stage::PlaceRows rows{kit.width, space.buffer->params().pitch};
     std::vector<frame::Stage> stages = {

@@ -53,7 +53,9 @@ const char* Method::picture() const {
 }
 
 frame::Graph Method::make(const stage::Kit& kit, const Options& options) const {
-    frame::Graph graph = base(kit, options);
+    Options own = options;
+    own.smoothed = antialiased;
+    frame::Graph graph = base(kit, own);
     graph.rename(name, purpose);
     if (!antialiased && !upscaled)
         return graph;

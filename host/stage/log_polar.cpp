@@ -198,10 +198,17 @@ frame::Stage remap_log_polar(const LogPolarKit& kit) {
     stage.reads = {"fovea", "ray count", "pixel of slot", "sampled colour", "log-polar colour"};
     stage.writes = {per_pixel(kit.kit, "colour", 16)};
     stage.prepare = [kit, name = stage.name] {
-        auto place = kit.kit.library.kernel(kernel::VariantKey("remap/log_polar"), "place_samples",
-                                            kit.kit.device);
-        auto remap = kit.rectangular ? kit.kit.lane_kernel("remap/log_rect", "remap_log_rect")
-                                     : kit.kit.lane_kernel("remap/log_polar", "remap_log_polar");
+        const auto key = [&kit](const char* program) {
+            return kernel::VariantKey(program)
+                .parameter("lanes", kit.kit.lanes)
+                .parameter("smoothed", kit.smoothed ? 1 : 0);
+        };
+        kernel::Library& library = kit.kit.library;
+        auto place = library.kernel(key("remap/log_polar"), "place_samples", kit.kit.device);
+        auto remap =
+            kit.rectangular
+                ? library.kernel(key("remap/log_rect"), "remap_log_rect", kit.kit.device)
+                : library.kernel(key("remap/log_polar"), "remap_log_polar", kit.kit.device);
         return [kit, name, place, remap](frame::Run& run) mutable {
             const compute::Buffer& texels = run["log-polar colour"];
             place

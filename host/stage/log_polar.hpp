@@ -63,6 +63,8 @@ struct LogPolarKit {
     // The buffer is log-rectilinear (Li et al. 2021): columns and rows are the image's, each warped
     // around the gaze.
     bool rectangular = false;
+    // antialias() follows, which knows what to make of a colour's alpha: see remap_log_polar().
+    bool smoothed = false;
 
     std::uint32_t disk_packets() const; // of 4 x 4 pixels
     std::uint32_t packets() const;      // and of 4 x 4 texels
@@ -77,7 +79,8 @@ frame::Stage choose_samples(const LogPolarKit& kit);
 // "primary rays", "pixel of slot" (the pixel's index; beyond the last one's the texel's), "spread
 // of slot" (pixels across a sample's footprint) and "ray count".
 frame::Stage log_polar_rays(const LogPolarKit& kit);
-// "sampled colour" -> "colour".
+// "sampled colour" -> "colour". Where frames are smoothed it is sharper, and alpha says how near a
+// sample lies to the pixel, 0..1 (1: in its middle).
 frame::Stage remap_log_polar(const LogPolarKit& kit);
 
 } // namespace macula::stage

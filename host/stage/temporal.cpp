@@ -170,11 +170,14 @@ frame::Stage upscale(const TemporalKit& kit) {
                     {"upscaled colour", 16, pixels}};
     stage.prepare = [=, name = stage.name] {
         auto upscale = kit.kit.lane_kernel("upscale/upscale", "upscale");
+        auto enlarge = kit.kit.lane_kernel("upscale/enlarge", "enlarge");
         auto sharpen = kit.kit.lane_kernel("upscale/sharpen", "sharpen");
         // What is as large as before needs no sharpening.
         const float ratio = static_cast<float>(width) / static_cast<float>(kit.kit.width);
         const float strength = kit.sharpness * std::min(ratio - 1.0f, 1.0f);
         const compute::Range range = kit.kit.strips(width, height);
+        const compute::Range blocks =
+            kit.kit.strips(width, (height + MACULA_ENLARGED_ROWS - 1) / MACULA_ENLARGED_ROWS);
         return [=](frame::Run& run) mutable {
             const compute::Buffer none;
             const compute::Buffer& colours = run[upscaled_from(kit)];
@@ -184,10 +187,13 @@ frame::Stage upscale(const TemporalKit& kit) {
                      kit.foveated ? run.last("fovea") : none, colours,
                      kit.foveated ? run["sample spread"] : none, run["followed motion"],
                      run.last("upscaled planes"), kit.cached ? run["fresh pixels"] : none,
-                     run["upscaled planes"], run["upscaled colour"])
+                     run["upscaled planes"])
                 .launch(name, range, kit.kit.lane_group());
+            if (beyond_disk(kit) == MACULA_BEYOND_SMOOTH)
+                enlarge.set(run.params_buffer(), width, height, colours, run["upscaled colour"])
+                    .launch("upscale beyond the disk", blocks, kit.kit.lane_group());
             sharpen
-                .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea, colours,
+                .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea,
                      run["upscaled planes"], run["upscaled colour"])
                 .launch("sharpen", range, kit.kit.lane_group());
         };

@@ -2,12 +2,14 @@
  */
 #include "lib/camera.h"
 #include "lib/log_polar.h"
+#include "remap/weights.h"
 #include "shared/ray.h"
 
 #define MACULA_TAPS 3
 #include "remap/taps.h"
 
-/* One work-item a slot: samples of the disk go to their pixels, the others to the buffer. */
+/* One work-item a slot: samples of the disk go to their pixels, the others to the buffer: times
+ * their weights, which alpha holds. */
 kernel void place_samples(global const FrameParams* restrict frame,
                           global const uint* restrict ray_count, global const uint* restrict places,
                           global const float4* restrict colours, global float4* restrict image,
@@ -20,27 +22,19 @@ kernel void place_samples(global const FrameParams* restrict frame,
     if (place < pixels)
         image[place] = colour;
     else
-        buffer[place - pixels] = colour;
-}
-
-/* A quadratic B-spline's weights for a place f in [-0.5, 0.5] from the middle one of three samples:
- * a Gaussian of half a sample but for its tails. */
-static inline void spline_weights(Real f, Real weights[3]) {
-    const Real before = 0.5f - f, after = 0.5f + f;
-    weights[0] = 0.5f * (before * before);
-    weights[1] = fma(f, -f, splat(0.75f));
-    weights[2] = 0.5f * (after * after);
+        buffer[place - pixels] = colour * weight_of_sample(colour.xyz);
 }
 
 /* `column`, `row`: of the buffer, in texels, 0 being the edge of the first one. The buffer goes on
- * around the gaze. */
-static inline void put_taps(Real column, Real row, global const LogPolarParams* params,
+ * around the gaze. Returns how near the middle sample lies. */
+static inline Real put_taps(Real column, Real row, global const LogPolarParams* params,
                             Taps* taps) {
     const Real last = splat((float)(params->width - 1u));
     const Real middle_column = m_min(rint(column - 0.5f), last), middle_row = rint(row - 0.5f);
-    spline_weights(column - 0.5f - middle_column, taps->columns);
+    const Real to_x = column - 0.5f - middle_column, to_y = row - 0.5f - middle_row;
+    tap_weights(to_x, taps->columns);
     Real weights[MACULA_TAPS];
-    spline_weights(row - 0.5f - middle_row, weights);
+    tap_weights(to_y, weights);
     /* The column before the middle one: a row begins with an empty texel. */
     const Int first_column = to_int(middle_column), rows = splat_int((int)params->height);
     for (int j = 0; j < MACULA_TAPS; ++j) {
@@ -49,10 +43,11 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
         const Int kept = below >= rows ? below - rows : below;
         put_row(taps, j, int_to_uint(kept * (int)params->pitch + first_column), weights[j]);
     }
+    return nearness(to_x) * nearness(to_y);
 }
 
 /* One work-item a strip. Within the disk the image holds its samples, which pass into the buffer's
- * colours towards the edge. */
+ * colours towards the edge. Alpha: 1 where a sample lies in a pixel's middle. */
 kernel void remap_log_polar(global const FrameParams* restrict frame,
                             global const LogPolarParams* restrict params,
                             global const Fovea* restrict fovea,
@@ -71,7 +66,8 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
     Taps taps;
     /* The samples lie in the buffer where the frame's jitter put them. */
     const Real column = log_polar_column(params, fovea, kept) - frame->jitter[0];
-    put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
-             log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
-    store_remapped(fovea, &s, distance, wanted, read_taps(buffer, &taps), image);
+    const Real near =
+        put_taps(clamped(column, splat(0.0f), splat((float)params->width)),
+                 log_polar_row(params, x, y) - frame->jitter[1], params, &taps);
+    store_remapped(fovea, &s, distance, wanted, read_taps(buffer, &taps), near, image);
 }

@@ -24,9 +24,11 @@ typedef struct Sums {
     Real least, most;                 /* depths */
     Real light, squares, count;       /* of their luminance */
     Real motion_x, motion_y, movable; /* of those that were in view */
+    Uint facing;                      /* a set of normals */
 } Sums;
 
-static inline void add_texels(Sums* sums, Mask sampled, Real light, Real3 surface) {
+static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel) {
+    const Real3 surface = texel.xyz;
     const Real one = splat(1.0f), zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
     sums->least = sampled ? m_min(sums->least, surface.x) : sums->least;
     sums->most = sampled ? m_max(sums->most, surface.x) : sums->most;
@@ -37,6 +39,7 @@ static inline void add_texels(Sums* sums, Mask sampled, Real light, Real3 surfac
     sums->motion_x = sums->motion_x + (moved ? surface.y : zero);
     sums->motion_y = sums->motion_y + (moved ? surface.z : zero);
     sums->movable = sums->movable + (moved ? one : zero);
+    sums->facing = sums->facing | to_uint(sampled ? texel.w : zero);
 }
 
 /* The texels from an index on, of which `whole` says that none lies beyond the buffer. */
@@ -45,7 +48,8 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
 }
 
 /* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
- * three texels; motions: their mean, the deviation of the luminance, 1.
+ * three texels, the negative of the set of their normals; motions: their mean, the deviation of the
+ * luminance, 1.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -59,7 +63,8 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const uint pitch = params->pitch, last = pitch * params->height - 1u;
     const bool whole = s.x + MACULA_LANES + 2 <= (int)pitch;
     const Real zero = splat(0.0f);
-    Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero};
+    Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
+                 splat_uint(0u)};
     for (int k = 0; k < 9; ++k) {
         /* A row begins with an empty texel. */
         const Int i = strip_columns(&s) + k % 3;
@@ -67,7 +72,10 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
         const Lane4 colour = texels_from(colours, from, whole, last);
         const Lane4 surface = texels_from(surfaces, from, whole, last);
         const Mask sampled = (i > needed) & (i <= s.width) & (colour.w > zero);
-        add_texels(&sums, sampled, luminance_of(colour.xyz), surface.xyz);
+        /* Colours are stored times their weights. */
+        const Real weight = sampled ? colour.w : splat(1.0f);
+        const Real light = m_divide(luminance_of(colour.xyz), weight);
+        add_texels(&sums, sampled, light, surface);
     }
     const Real one = splat(1.0f), share = m_divide(one, m_max(sums.count, one));
     const Real mean = sums.light * share;
@@ -75,7 +83,8 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const Real moved = m_divide(one, m_max(sums.movable, one));
     const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
     const Mask inside = strip_inside(&s);
-    scatter4(ranges, lanes_from(to), inside, make3(sums.least, sums.most, zero), zero);
+    scatter4(ranges, lanes_from(to), inside,
+             make3(sums.least, sums.most, -uint_to_real(sums.facing)), zero);
     scatter4(motions, lanes_from(to), inside,
              make3(sums.motion_x * moved, sums.motion_y * moved, spread),
              sums.movable > zero ? one : zero);
@@ -111,7 +120,7 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
 typedef struct Shown {
     Real motion_x, motion_y;
     Depths depths, kept; /* to look for in the last frame, and for the next one */
-    Real normal, deviation;
+    Real facing, deviation; /* a normal, or the negative of a set of them */
 } Shown;
 
 static inline Shown show_texels(global const LogPolarParams* params, global const float4* ranges,
@@ -120,7 +129,7 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
     const Lane4 motion = motion_at(params, motions, p);
     const Real3 range = gather4(ranges, nearest).xyz;
     const Depths depths = {range.x, range.y};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, splat(0.0f), motion.xyz.z};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
     return shown;
 }
 
@@ -153,7 +162,7 @@ static inline Shown select_shown(Mask mask, const Shown* a, const Shown* b) {
                          mask ? a->motion_y : b->motion_y,
                          select_depths(mask, a->depths, b->depths),
                          select_depths(mask, a->kept, b->kept),
-                         mask ? a->normal : b->normal,
+                         mask ? a->facing : b->facing,
                          mask ? a->deviation : b->deviation};
     return shown;
 }
@@ -190,15 +199,18 @@ kernel void remap_surfaces(global const FrameParams* restrict frame,
     }
     store_plane(range + MACULA_PLANE_LEAST * pixels, &s, shown.kept.least);
     store_plane(range + MACULA_PLANE_MOST * pixels, &s, shown.kept.most);
-    store_plane(range + MACULA_PLANE_FACING * pixels, &s, shown.normal);
+    store_plane(range + MACULA_PLANE_FACING * pixels, &s, shown.facing);
     store_plane(spread, &s, shown.deviation);
     const Before before =
         find_before(frame, &s, shown.motion_x, shown.motion_y, shown.depths, past_range);
     Mask same = before.same;
-    /* Beyond the disk two frames' samples lie too far apart to tell by their normals. */
-    const Mask judged = same & within & moves(shown.motion_x, shown.motion_y);
+    const Mask moved = moves(shown.motion_x, shown.motion_y), judged = same & within & moved;
     if (any_lane(judged))
         same = same & (!judged | still_faces(sampled + MACULA_PLANE_NORMAL * pixels, &s,
                                              before.facing, judged));
+    /* Two frames' texels lie far apart: they tell nothing unless all of them do. */
+    const Mask told = same & beyond & moved;
+    if (any_lane(told))
+        same = same & (!told | sets_meet(facing_set(shown.facing), facing_set(before.facing)));
     store_followed(&s, shown.motion_x, shown.motion_y, same, followed);
 }

@@ -3,6 +3,7 @@
 #include "lib/camera.h"
 #include "lib/log_polar.h"
 #include "lib/log_rect.h"
+#include "remap/weights.h"
 #include "shared/ray.h"
 
 #define MACULA_TAPS 2
@@ -13,6 +14,12 @@ static inline Real first_of_two(Real place, Real* second) {
     const Real first = floor(place - 0.5f);
     *second = (place - 0.5f) - first;
     return first;
+}
+
+/* How near the nearest sample lies. */
+static inline Real nearness_along(Real place) {
+    const Real texel = place - splat(0.5f);
+    return nearness(texel - rint(texel));
 }
 
 /* Beyond the ends of the buffer its outermost texels go on; its rows begin and end with an empty
@@ -33,7 +40,7 @@ static inline void put_taps(Real column, Real row, global const LogPolarParams* 
 }
 
 /* One work-item a strip. Within the disk the image holds its samples, which pass into the buffer's
- * colours towards the edge. */
+ * colours towards the edge. Alpha: 1 where a sample lies in a pixel's middle. */
 kernel void remap_log_rect(global const FrameParams* restrict frame,
                            global const LogPolarParams* restrict params,
                            global const Fovea* restrict fovea, global const float4* restrict buffer,
@@ -51,7 +58,9 @@ kernel void remap_log_rect(global const FrameParams* restrict frame,
     const RectAxis rows = make_rect_axis(fovea->y, frame->height, params->height);
     Taps taps;
     /* The samples lie in the buffer where the frame's jitter put them. */
-    put_taps(rect_texel(&columns, params->inverse_alpha, x) - frame->jitter[0],
-             rect_texel(&rows, params->inverse_alpha, y) - frame->jitter[1], params, &taps);
-    store_remapped(fovea, &s, distance, wanted, read_taps(buffer, &taps), image);
+    const Real column = rect_texel(&columns, params->inverse_alpha, x) - frame->jitter[0];
+    const Real row = rect_texel(&rows, params->inverse_alpha, y) - frame->jitter[1];
+    put_taps(column, row, params, &taps);
+    store_remapped(fovea, &s, distance, wanted, read_taps(buffer, &taps),
+                   nearness_along(column) * nearness_along(row), image);
 }

@@ -6,6 +6,7 @@
 #include "lib/lane_array.h"
 #include "lib/log_polar.h"
 #include "lib/strip.h"
+#include "remap/weights.h"
 
 /* What the lanes read: for each row its weight and how many bytes its first texel lies behind the
  * buffer's, and the weights of the texels side by side from there on. */
@@ -14,6 +15,17 @@ typedef struct Taps {
     float rows[MACULA_TAPS][MACULA_LANES];
     uint first[MACULA_TAPS][MACULA_LANES];
 } Taps;
+
+/* `texel`: its index. */
+MACULA_ALWAYS_INLINE void put_row(Taps* taps, int row, Uint texel, Real weight) {
+    put_uint_lanes(taps->first[row], texel << 4);
+    put_lanes(taps->rows[row], weight);
+}
+
+MACULA_ALWAYS_INLINE global const float4* first_texel(global const float4* texels, const Taps* taps,
+                                               int row, uint lane) {
+    return (global const float4*)((global const char*)texels + taps->first[row][lane]);
+}
 
 #if MACULA_LANES == 1
 
@@ -72,11 +84,13 @@ MACULA_ALWAYS_INLINE Lane4 read_taps(global const float4* texels, const Taps* ta
 }
 
 #endif
-/* What `wanted` pixels show: sums of colours whose texels without a sample have no alpha. Towards
- * the disk's middle it passes into the samples that the image holds. */
-static inline void store_remapped(global const Fovea* fovea, const Strip* s, Real distance,
-                                  Mask wanted, Lane4 sum, global float4* image) {
-    const Real scale = m_divide(splat(1.0f), m_max(sum.w, splat(1e-6f)));
+/* What `wanted` pixels show: sums of colours times their weights, of which those without a sample
+ * have none. Towards the disk's middle that passes into the samples that the image holds. `near`:
+ * how near a sample lies, which alpha tells. */
+MACULA_ALWAYS_INLINE void store_remapped(global const Fovea* fovea, const Strip* s, Real distance,
+                                  Mask wanted, Lane4 sum, Real near, global float4* image) {
+    const Real one = splat(1.0f);
+    const Real scale = m_divide(one, m_max(sum.w, splat(LEAST_SUM)));
     Real3 colour = scale3(sum.xyz, scale);
     if (any_lane(distance < splat(fovea->radius))) {
         const Real3 sampled = colours_at(image, s, 0, 0).xyz;
@@ -84,8 +98,9 @@ static inline void store_remapped(global const Fovea* fovea, const Strip* s, Rea
         const Real3 mixed = scale_add3(sub3(sampled, colour), disk, colour);
         colour = select3(disk > splat(0.0f), mixed, colour);
         colour = select3(wanted, colour, sampled);
+        near = wanted ? fma(one - near, disk, near) : one;
     }
-    store_colours(image, s, colour);
+    store_weighed(image, s, colour, near);
 }
 
 #endif

@@ -14,7 +14,7 @@
 /* "depth range": what the next frame compares with. */
 #define MACULA_PLANE_LEAST 0u
 #define MACULA_PLANE_MOST 1u
-#define MACULA_PLANE_FACING 2u /* a normal */
+#define MACULA_PLANE_FACING 2u /* a packed normal, or the negative of normal_set() */
 #define MACULA_RANGE_PLANES 3u
 
 /* "stable planes", "upscaled planes": colours, and what they are worth in samples. */
@@ -25,5 +25,8 @@
 #define MACULA_BEYOND_NOTHING 0u /* there is no disk */
 #define MACULA_BEYOND_GATHER 1u  /* gather, without jitter */
 #define MACULA_BEYOND_SMOOTH 2u  /* enlarge what is smooth already */
+
+/* Rows of the picture that a work-item enlarges. */
+#define MACULA_ENLARGED_ROWS 8u
 
 #endif

@@ -10,6 +10,7 @@
 
 #define LEAST_BIAS 0.1f   /* of the retention bias, section 4.4 */
 #define MOST_WORTH 255.0f /* samples that a colour can be worth */
+#define LEAST_WORTH 1e-4f  /* and one sample */
 /* Deviations of the samples that a pixel is made of, or of those around it, that are no change. */
 #define SPREAD_REACH 2.0f
 
@@ -79,9 +80,17 @@ static inline Real retention_bias(global const FrameParams* frame, Real change, 
     return least + clamped(rest * speed, splat(0.0f), rest);
 }
 
-/* One work-item a strip. stable: four planes, colour and worth; colour_out may be null. `fovea`:
- * null, or the disk within which nothing is smoothed. spreads: the deviation of the luminance of
- * the samples that a pixel is made of. */
+/* What a history may be worth for a sample of 1 to have the share `bias`. */
+static inline Real most_worth(Real bias) {
+    const Real share = clamped(bias, splat(1e-3f), splat(1.0f));
+    return m_divide(splat(1.0f) - share, share);
+}
+
+/* One work-item a strip. colour: alpha says how near a sample lies to the pixel, 0..1, and thus
+ * what it is worth: the nearer ones make a sharper mean, at rest, where many come, the nearest.
+ * stable: four planes, colour and worth; colour_out may be null. `fovea`: null, or the disk within
+ * which nothing is smoothed. spreads: the deviation of the luminance of the samples that a pixel is
+ * made of. */
 kernel void antialias(global const FrameParams* restrict frame, float frame_rate,
                       global const Fovea* restrict fovea, global const float4* restrict colour,
                       global const float* restrict spreads, global const float* restrict followed,
@@ -91,7 +100,8 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
     if (s.y >= s.height)
         return;
     const uint pixels = frame->width * frame->height;
-    const Real3 now = colours_at(colour, &s, 0, 0).xyz;
+    const Lane4 pixel = colours_at(colour, &s, 0, 0);
+    const Real3 now = pixel.xyz;
     const Real motion_x = plane_at(followed, &s, 0, 0);
     const Real motion_y = plane_at(followed + pixels, &s, 0, 0);
     const Real one = splat(1.0f);
@@ -99,7 +109,7 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
     const Mask wanted = strip_inside(&s) & (fabs(motion_x) < splat(MACULA_NO_MOTION)) &
                         (disk < one);
     Real3 result = now;
-    Real worth = one;
+    Real worth = pixel.w;
     if (any_lane(wanted)) {
         const Footprint f = footprint_at(strip_middles(&s) + motion_x,
                                          ((float)s.y + 0.5f) + motion_y, wanted, s.width,
@@ -111,7 +121,6 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         const Real apart = fabs(light - luminance_of(past.mean));
         const Real motion = m_sqrt(fma(motion_x, motion_x, motion_y * motion_y));
         const Mask still = (motion < splat(0x1p-9f)) & splat_mask(stands_still(frame));
-        const Real equal = m_divide(one, past.worth + one);
         const Real3 history = rectified(&around, past.colour, still ? splat(STILL_REACH)
                                                                       : splat(MOVING_REACH),
                                         m_max(splat(SPREAD_REACH) * spread, splat(1e-6f)));
@@ -119,14 +128,14 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         const Real change = m_max(apart - noise, splat(0.0f));
         Real bias = retention_bias(frame, change, motion, frame_rate);
         bias = still ? change : bias;
-        bias = m_min(m_max(bias, equal), one);
+        const Real sample = m_max(still ? pixel.w * pixel.w : pixel.w, splat(LEAST_WORTH));
+        const Real kept = m_min(past.worth, most_worth(bias)), sum = kept + sample;
         /* The disk's own samples, towards its middle. */
-        bias = fma(one - bias, disk, bias);
+        const Real part = m_divide(sample, sum);
+        bias = fma(one - part, disk, part);
         const Mask mixed = wanted & (past.worth > splat(0.0f)) & (bias < one);
         result = select3(mixed, lerp3(history, now, bias), now);
-        const Real rest = one - bias;
-        const Real spent = fma(bias, bias, m_divide(rest * rest, m_max(past.worth, one)));
-        worth = mixed ? m_min(m_divide(one, spent), splat(MOST_WORTH)) : one;
+        worth = mixed ? m_min(sum, splat(MOST_WORTH)) : sample;
     }
     store_plane(stable, &s, result.x);
     store_plane(stable + pixels, &s, result.y);

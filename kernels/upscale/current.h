@@ -66,23 +66,6 @@ MACULA_ALWAYS_INLINE Weights3 quadratic_weights(Real t) {
     return q;
 }
 
-/* Between the samples of three planes. */
-MACULA_ALWAYS_INLINE Real3 smooth_colour(global const float* planes, uint pixels,
-                                         const Source* s) {
-    const Weights3 across = quadratic_weights(s->to_x), down = quadratic_weights(s->to_y);
-    Real3 sum = splat_vector(splat3(0.0f));
-    for (uint k = 0u; k < 9u; ++k) {
-        const int i = (int)(k % 3u), j = (int)(k / 3u);
-        const Real weight = across.w[i] * down.w[j];
-        const Real3 sample = make3(source_at(planes, s, i - 1, j - 1),
-                                   source_at(planes + pixels, s, i - 1, j - 1),
-                                   source_at(planes + 2u * pixels, s, i - 1, j - 1));
-        sum = scale_add3(sample, weight, sum);
-    }
-    const Real zero = splat(0.0f);
-    return make3(m_max(sum.x, zero), m_max(sum.y, zero), m_max(sum.z, zero));
-}
-
 /* Of a tent over a pixel of the picture and its neighbours; `scale`: pixels of the picture for a
  * rendered one. */
 MACULA_ALWAYS_INLINE Weights3 tent_weights(Real t, float scale) {

@@ -1,5 +1,5 @@
 /* Normals in one float each: octahedral (Meyer et al. 2010, "On Floating-Point Normal Vectors"),
- * two whole numbers of 0..2046 in one. OpenCL C only. */
+ * two whole numbers of 0..2046 in one; and sets of normals in one float each. OpenCL C only. */
 #ifndef MACULA_UPSCALE_NORMALS_H
 #define MACULA_UPSCALE_NORMALS_H
 
@@ -49,6 +49,43 @@ MACULA_ALWAYS_INLINE Mask face_alike(Real packed, Real other) {
     const Mask known = (packed >= splat(1.0f)) & (other >= splat(1.0f));
     const Mask apart = (cosine <= splat(0.0f)) | (cosine * cosine < splat(ALIKE_SQUARED) * sizes);
     return !(known & apart);
+}
+
+/* A set of normals: a bit for each eighth of each axis near which one of them ends, a whole number
+ * below 2^24. Sets are united by their bits. Each normal has three bits an axis: those that share
+ * none along some axis are 29 degrees apart or more, and none that are 82 degrees apart share them
+ * along all three. */
+#define ALL_NORMALS 0xffffffu
+
+MACULA_ALWAYS_INLINE Uint near_eighths(Real component) {
+    const Real at = clamped(fma(component, splat(4.0f), splat(4.0f)), splat(0.0f), splat(7.0f));
+    return (splat_uint(7u) << to_uint(at)) >> 1u & 255u;
+}
+
+/* Of a normal of any length; of none: all. */
+MACULA_ALWAYS_INLINE Uint normal_set(Real3 n) {
+    const Real square = dot3(n, n), one = splat(1.0f);
+    const Mask known = square > splat(1e-12f);
+    const Real3 unit = scale3(n, m_divide(one, m_sqrt(known ? square : one)));
+    const Uint x = near_eighths(unit.x), y = near_eighths(unit.y), z = near_eighths(unit.z);
+    return known ? x | y << 8u | z << 16u : splat_uint(ALL_NORMALS);
+}
+
+/* Of what faced the viewer: the negative of a set, or a packed normal; of anything else: all. */
+MACULA_ALWAYS_INLINE Uint facing_set(Real facing) {
+    const Real one = splat(1.0f), all = splat((float)ALL_NORMALS);
+    const Mask is_set = (facing <= -one) & (facing >= -all);
+    const Mask is_normal = (facing >= one) & (facing <= all);
+    Uint set = is_set ? to_uint(is_set ? -facing : one) : splat_uint(ALL_NORMALS);
+    if (any_lane(is_normal))
+        set = is_normal ? normal_set(unpacked_normal(facing)) : set;
+    return set;
+}
+
+/* Some normal of the one may be some normal of the other. */
+MACULA_ALWAYS_INLINE Mask sets_meet(Uint a, Uint b) {
+    const Uint both = a & b;
+    return ((both & 0xffu) != 0u) & ((both & 0xff00u) != 0u) & ((both & 0xff0000u) != 0u);
 }
 
 #endif

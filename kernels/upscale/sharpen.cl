@@ -2,7 +2,6 @@
  * pixels. The history itself stays as it is. */
 #include "lib/camera.h"
 #include "shared/planes.h"
-#include "upscale/current.h"
 #include "upscale/fovea.h"
 
 /* Away from the mean of its four neighbours, the less the nearer to black or white they come, and
@@ -19,11 +18,10 @@ static inline Real sharpened(global const float* plane, const Strip* s, float st
     return clamped(fma(away, part * splat(strength), middle), low, high);
 }
 
-/* One work-item a strip of the picture. */
+/* One work-item a strip of the picture, which holds what lies beyond the disk already. */
 kernel void sharpen(global const FrameParams* restrict frame, uint target_width, uint target_height,
                     uint beyond, float strength, global const Fovea* restrict fovea,
-                    global const float* restrict planes, global const float* restrict upscaled,
-                    global float4* restrict picture) {
+                    global const float* restrict upscaled, global float4* restrict picture) {
     const Strip s = strip_of_item(target_width, target_height);
     if (s.y >= s.height)
         return;
@@ -44,10 +42,8 @@ kernel void sharpen(global const FrameParams* restrict frame, uint target_width,
         result = make3(plane_at(upscaled, &s, 0, 0), plane_at(upscaled + all, &s, 0, 0),
                        plane_at(upscaled + 2u * all, &s, 0, 0));
     if (any_lane(part < splat(1.0f))) {
-        const Source source = source_of(&s, (int)frame->width, (int)frame->height, across, down,
-                                        splat(0.0f), splat(0.0f));
-        const Real3 smooth = smooth_colour(planes, frame->width * frame->height, &source);
         /* Beyond the disk nothing was gathered. */
+        const Real3 smooth = colours_at(picture, &s, 0, 0).xyz;
         const Real3 mixed = select3(part > splat(0.0f), lerp3(smooth, result, part), smooth);
         result = select3(part < splat(1.0f), mixed, result);
     }

@@ -4,7 +4,7 @@
 #include "upscale/normals.h"
 
 /* One work-item a slot. Samples of pixels go to the planes; others, of kernel log-polar foveation,
- * to its texels: depth, motion, normal. */
+ * to its texels: depth, motion, the normal as a set. */
 kernel void place_surfaces(global const FrameParams* restrict frame,
                            global const uint* restrict ray_count,
                            global const uint* restrict places, global const float* restrict depths,
@@ -17,13 +17,13 @@ kernel void place_surfaces(global const FrameParams* restrict frame,
     const uint pixels = frame->width * frame->height, place = places[slot];
     const float depth = depths[slot];
     const float2 motion = motions[slot];
-    const float normal = pack_normal(normals[slot].xyz);
+    const float3 normal = normals[slot].xyz;
     if (place < pixels) {
         planes[MACULA_PLANE_DEPTH * pixels + place] = depth;
         planes[MACULA_PLANE_MOTION_X * pixels + place] = motion.x;
         planes[MACULA_PLANE_MOTION_Y * pixels + place] = motion.y;
-        planes[MACULA_PLANE_NORMAL * pixels + place] = normal;
+        planes[MACULA_PLANE_NORMAL * pixels + place] = pack_normal(normal);
     } else {
-        texels[place - pixels] = (float4)(depth, motion, normal);
+        texels[place - pixels] = (float4)(depth, motion, (float)normal_set(normal));
     }
 }

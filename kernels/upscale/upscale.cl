@@ -98,15 +98,14 @@ static inline Mask in_disk(global const Fovea* fovea, Real distance) {
 }
 
 /* One work-item a strip of the picture. planes: of what is rendered. upscaled: four planes of the
- * picture; picture: written beyond the disk, where that alone is gathered. fresh: 0 for pixels that
- * are means of many frames' samples, and thus without jitter; null where there are none. */
+ * picture. fresh: 0 for pixels that are means of many frames' samples, and thus without jitter;
+ * null where there are none. */
 kernel void upscale(global const FrameParams* restrict frame, uint target_width, uint target_height,
                     uint beyond, global const Fovea* restrict fovea,
                     global const Fovea* restrict past_fovea, global const float* restrict planes,
                     global const float* restrict spreads, global const float* restrict followed,
                     global const float* restrict past_upscaled,
-                    global const float* restrict fresh, global float* restrict upscaled,
-                    global float4* restrict picture) {
+                    global const float* restrict fresh, global float* restrict upscaled) {
     const Strip s = strip_of_item(target_width, target_height);
     if (s.y >= s.height)
         return;
@@ -126,12 +125,8 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
         if (beyond == MACULA_BEYOND_SMOOTH)
             gathered = gathered & in_disk(fovea, distance);
     }
-    if (beyond == MACULA_BEYOND_SMOOTH && !any_lane(share > zero)) {
-        const Source source = source_of(&s, width, height, across, down, zero, zero);
-        store_colours(picture, &s, smooth_colour(planes, pixels, &source));
-        if (!any_lane(gathered))
-            return;
-    }
+    if (!any_lane(gathered))
+        return;
     if (fresh) {
         const Source nearest = source_of(&s, width, height, across, down, zero, zero);
         share = source_at(fresh, &nearest, 0, 0);

@@ -50,17 +50,53 @@ TEST(Upscale, ByOneWithoutJitterReturnsItsInput) {
     }
 }
 
+// But for alpha, which in "colour" says how near a sample lies.
+bool same_colours(Picture a, Picture b) {
+    for (Picture* picture : {&a, &b})
+        for (Float4& pixel : *picture)
+            pixel.w = 1.0f;
+    return same_bits(a, b);
+}
+
 TEST(Antialiasing, WithoutAHistoryReturnsItsInput) {
     WeierFrames frames(device(), cornell(), of_method("logpolar+taa"));
     for (std::uint32_t frame = 0; frame < 2; ++frame) {
         frames.run(2 * frame, cornell().cameras.front());
-        EXPECT_TRUE(same_bits(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
+        EXPECT_TRUE(
+            same_colours(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
         frames.run(2 * frame + 1, cornell().cameras.front());
         EXPECT_FALSE(
-            same_bits(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
+            same_colours(frames.read<Float4>("stable colour"), frames.read<Float4>("colour")));
         frames.forget();
     }
 }
+
+// A mean over frames: of all colours alike, or each with the weight that it has at rest.
+class Mean {
+  public:
+    explicit Mean(bool weighted) : weighted_(weighted) {}
+
+    void add(const Picture& picture) {
+        sums_.resize(picture.size(), {});
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            const Float4& c = picture[i];
+            const float weight = weighted_ ? c.w * c.w : 1.0f;
+            Float4& sum = sums_[i];
+            sum = {sum.x + weight * c.x, sum.y + weight * c.y, sum.z + weight * c.z,
+                   sum.w + weight};
+        }
+    }
+    Picture picture() const {
+        Picture mean = sums_;
+        for (Float4& c : mean)
+            c = {c.x / c.w, c.y / c.w, c.z / c.w, 1.0f};
+        return mean;
+    }
+
+  private:
+    bool weighted_;
+    Picture sums_;
+};
 
 TEST(Antialiasing, OfAStillViewConvergesToTheMeanOverTheJitter) {
     for (const bool disk : {true, false}) {
@@ -68,25 +104,67 @@ TEST(Antialiasing, OfAStillViewConvergesToTheMeanOverTheJitter) {
                            disk ? whole_disk("logpolar+taa") : of_method("logpolar+taa"));
         constexpr std::uint32_t kCycle = 16;
         std::vector<Picture> smoothed;
-        Picture mean;
+        Mean mean(true);
         for (std::uint32_t frame = 0; frame < 4 * kCycle; ++frame) {
             frames.run(frame, cornell().cameras.front());
             smoothed.push_back(frames.read<Float4>("stable colour"));
-            const Picture now = frames.read<Float4>("colour");
-            mean.resize(now.size(), {});
-            for (std::size_t i = 0; i < now.size(); ++i) {
-                mean[i].x += now[i].x / (4 * kCycle);
-                mean[i].y += now[i].y / (4 * kCycle);
-                mean[i].z += now[i].z / (4 * kCycle);
-            }
+            mean.add(frames.read<Float4>("colour"));
         }
-        const double first = mean_error(smoothed[0], mean);
-        const double later = mean_error(smoothed[kCycle - 1], mean);
-        const double last = mean_error(smoothed.back(), mean);
+        const double first = mean_error(smoothed[0], mean.picture());
+        const double later = mean_error(smoothed[kCycle - 1], mean.picture());
+        const double last = mean_error(smoothed.back(), mean.picture());
         // Beyond the disk a texel's jitter goes from surface to surface, and what is taken for
         // another one starts anew.
         EXPECT_LT(later, 0.5 * first) << "disk " << disk;
         EXPECT_LT(last, (disk ? 0.2 : 0.45) * first) << "disk " << disk;
+    }
+}
+
+// The mean over beyond the disk of the difference to the truth, which has no value above 1: lamps
+// are shown as white.
+double error_beyond_disk(Picture a, Picture b, int width, int height, double radius) {
+    double sum = 0.0, count = 0.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (std::hypot(x + 0.5 - 0.5 * width, y + 0.5 - 0.5 * height) < radius)
+                continue;
+            const Float4 &p = a[std::size_t(y * width + x)], &q = b[std::size_t(y * width + x)];
+            sum += std::abs(std::min(p.x, 1.0f) - std::min(q.x, 1.0f)) +
+                   std::abs(std::min(p.y, 1.0f) - std::min(q.y, 1.0f)) +
+                   std::abs(std::min(p.z, 1.0f) - std::min(q.z, 1.0f));
+            count += 3.0;
+        }
+    return sum / count;
+}
+
+TEST(Antialiasing, OfAStillViewResolvesMoreThanTheBuffersTexels) {
+    WeierSetup setup = of_method("full");
+    setup.samples_per_pixel = 64;
+    WeierFrames truth(device(), cornell(), setup);
+    truth.run(0, cornell().cameras.front());
+    const Picture reference = truth.read<Float4>("colour");
+    setup.samples_per_pixel = 1;
+    const auto error = [&](const Picture& picture) {
+        const double half = 0.5 * std::hypot(double(setup.width), double(setup.height));
+        return error_beyond_disk(picture, reference, int(setup.width), int(setup.height),
+                                 setup.log_polar.disk * half);
+    };
+    setup.method = "logpolar";
+    WeierFrames foveated(device(), cornell(), setup);
+    foveated.run(0, cornell().cameras.front());
+    const double one_frame = error(foveated.read<Float4>("colour"));
+    // Here texels of the log-rectilinear buffer take but two pixels by two.
+    for (const auto& [method, bound] : {std::pair("logpolar+taa", 0.85), {"logrect+taa", 0.97}}) {
+        setup.method = method;
+        WeierFrames frames(device(), cornell(), setup);
+        Mean mean(false);
+        for (std::uint32_t frame = 0; frame < 64; ++frame) {
+            frames.run(frame, cornell().cameras.front());
+            mean.add(frames.read<Float4>("colour"));
+        }
+        const double gathered = error(frames.read<Float4>("stable colour"));
+        EXPECT_LT(gathered, bound * error(mean.picture())) << method;
+        EXPECT_LT(gathered, 0.6 * one_frame) << method;
     }
 }
 
@@ -140,6 +218,64 @@ TEST(Upscale, AfterAFullFovealRegionIsThatAfterMethodFullBitForBit) {
         EXPECT_TRUE(
             same_bits(foveated.read<Float4>(foveated.picture()), full.read<Float4>(full.picture())))
             << "frame " << frame;
+    }
+}
+
+// The place of a pixel of the picture among `from` samples, of which it has `to`.
+struct Between {
+    int nearest;
+    double weights[3];
+};
+
+Between between(std::uint32_t pixel, std::uint32_t to, std::uint32_t from) {
+    const double at = (pixel + 0.5) * from / to - 0.5, nearest = std::nearbyint(at);
+    const double t = std::abs(at - nearest), before = t * t - 0.5 * t, after = t * t + 0.5 * t;
+    return {static_cast<int>(nearest),
+            {at > nearest ? before : after, 1.0 - 2.0 * t * t, at > nearest ? after : before}};
+}
+
+// Dodgson's quadratic between the three by three samples around a pixel.
+double quadratic(const Picture& samples, int width, int height, const Between& across,
+                 const Between& down) {
+    double sum = 0.0;
+    for (int k = 0; k < 9; ++k) {
+        const int x = std::clamp(across.nearest + k % 3 - 1, 0, width - 1);
+        const int y = std::clamp(down.nearest + k / 3 - 1, 0, height - 1);
+        sum += across.weights[k % 3] * down.weights[k / 3] * samples[y * width + x].y;
+    }
+    return std::max(sum, 0.0);
+}
+
+TEST(Upscale, BeyondTheDiskThePictureIsAQuadraticBetweenItsSamples) {
+    for (const float ratio : {1.0f, 1.8f, 4.0f}) {
+        WeierSetup setup = of_method("logpolar+taa+upscale");
+        setup.width = 101; // no whole strip, no whole block of rows
+        setup.height = 75;
+        setup.temporal.ratio = ratio;
+        setup.outputs = {"fovea", "stable colour"};
+        WeierFrames frames(device(), cornell(), setup);
+        frames.run(0, cornell().cameras.front());
+        const auto fovea = frames.read<shared::Fovea>("fovea").front();
+        const Picture samples = frames.read<Float4>("stable colour");
+        const Picture picture = frames.read<Float4>(frames.picture());
+        const auto [width, height] = method::find_method(setup.method)
+                                         .render_size(setup.width, setup.height, setup.temporal);
+        double worst = 0.0;
+        std::size_t beyond = 0;
+        for (std::uint32_t i = 0; i < picture.size(); ++i) {
+            const std::uint32_t x = i % setup.width, y = i / setup.width;
+            const double dx = (x + 0.5) * width / setup.width - fovea.x;
+            const double dy = (y + 0.5) * height / setup.height - fovea.y;
+            if (std::hypot(dx, dy) < fovea.radius + 0.01)
+                continue;
+            ++beyond;
+            const double expected =
+                quadratic(samples, int(width), int(height), between(x, setup.width, width),
+                          between(y, setup.height, height));
+            worst = std::max(worst, std::abs(expected - picture[i].y));
+        }
+        EXPECT_LT(worst, 1e-5) << "ratio " << ratio;
+        EXPECT_GT(beyond, picture.size() / 2);
     }
 }
 

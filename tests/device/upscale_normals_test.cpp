@@ -1,0 +1,134 @@
+// Histories that beyond the foveal disk only normals can tell from what has come into view.
+#include <gtest/gtest.h>
+
+#include "tests/support/upscale_pictures.hpp"
+
+namespace {
+using namespace macula;
+using namespace macula::test;
+using namespace macula::test::upscale;
+
+constexpr int kWidth = 200, kHeight = 160;
+constexpr int kReach = 10; // pixels: what two texels reach, as large as they are here
+
+// A box whose front is red and whose right side is blue, from so far away that all has one depth.
+scene::Scene far_box() {
+    scene::Mesh wall, box;
+    add_quad(wall, {-40, -40, -6}, {80, 0, 0}, {0, 80, 0}, 0);
+    add_quad(box, {-1, -1, 0.3f}, {2, 0, 0}, {0, 2, 0}, 1);
+    add_quad(box, {1, -1, 0.3f}, {0, 0, -4}, {0, 2, 0}, 2);
+    scene::Scene scene = scene_of(std::move(wall), {{0.8f, 0, 80}, {0.8f, 0, 0}, 2.0f});
+    scene.meshes.push_back(std::move(box));
+    scene.instances.push_back({1, {}, "box"});
+    scene.materials.resize(3);
+    for (scene::Material& material : scene.materials)
+        material.diffuse = material.emission = glm::vec3(0.0f);
+    scene.materials[1].emission = glm::vec3(1.0f, 0.0f, 0.0f);
+    scene.materials[2].emission = glm::vec3(0.0f, 0.0f, 1.0f);
+    return scene;
+}
+
+scene::Transform turned(float angle) {
+    scene::Transform there;
+    there.row[0] = {std::cos(angle), 0, std::sin(angle), 0};
+    there.row[2] = {-std::sin(angle), 0, std::cos(angle), 0};
+    return there;
+}
+
+// The pixel and all within `reach` pixels show that colour alone.
+bool shows(const Picture& picture, int x, int y, int reach, bool red) {
+    if (x < reach || y < reach || x + reach >= kWidth || y + reach >= kHeight)
+        return false;
+    bool all = true;
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+            const Float4& c = picture[std::size_t((y + j) * kWidth + x + i)];
+            all = all && c.x == (red ? 1.0f : 0.0f) && c.z == (red ? 0.0f : 1.0f);
+        }
+    return all;
+}
+
+WeierSetup tiny_disk(const char* method) {
+    WeierSetup setup = of_method(method);
+    setup.width = kWidth;
+    setup.height = kHeight;
+    setup.temporal.ratio = 1.0f;
+    setup.log_polar.disk = 0.05f;
+    setup.log_polar.alpha = 1.5f;
+    setup.geometry.merge_static = false;
+    setup.outputs = {"followed motion"};
+    return setup;
+}
+
+class BeyondTheDisk : public testing::TestWithParam<const char*> {};
+
+TEST_P(BeyondTheDisk, ASideThatTurnsUpTakesNoHistoryFromTheOneBesideIt) {
+    const scene::Scene scene = far_box();
+    WeierFrames frames(device(), scene, tiny_disk(GetParam()));
+    Picture before;
+    int turned_up = 0, kept = 0, followed = 0;
+    for (std::uint32_t frame = 0; frame < 8; ++frame) {
+        frames.place(std::vector{scene::Transform{}, turned(frame % 2 == 0 ? -0.15f : 0.2f)});
+        frames.run(frame, scene.cameras.front());
+        const Picture now = frames.read<Float4>("colour");
+        const auto motion = frames.read<float>("followed motion");
+        for (int y = 0; frame > 0 && y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const auto i = std::size_t(y * kWidth + x);
+                const bool has_history = std::abs(motion[i]) < 1000.0f;
+                followed += has_history ? 1 : 0;
+                if (!shows(now, x, y, kReach, false))
+                    continue;
+                const int from = x + int(std::lround(motion[i]));
+                kept += has_history && shows(before, from, y, kReach, true) ? 1 : 0;
+                turned_up += has_history ? 0 : 1;
+            }
+        before = now;
+    }
+    EXPECT_GT(turned_up, 100);
+    EXPECT_EQ(kept, 0);
+    EXPECT_GT(followed, 7 * kWidth * kHeight / 2);
+}
+
+// Slanted ridges as wide as a pixel, whose sides face left and right: what a texel hits the jitter
+// decides.
+scene::Scene ridges() {
+    scene::Mesh mesh;
+    for (int i = -180; i < 180; ++i) {
+        const float x = 0.014f * float(i);
+        add_quad(mesh, {x - 0.75f, -2, 0}, {0.007f, 0, 0.007f}, {1.5f, 4, 0});
+        add_quad(mesh, {x - 0.743f, -2, 0.007f}, {0.007f, 0, -0.007f}, {1.5f, 4, 0});
+    }
+    return scene_of(std::move(mesh), {{0, 0, 80}, {0, 0, 0}, 2.0f});
+}
+
+TEST_P(BeyondTheDisk, FinePatternsOfFacesKeepTheirHistory) {
+    const scene::Scene scene = ridges();
+    for (const float step : {0.0f, 0.02f}) {
+        WeierFrames frames(device(), scene, tiny_disk(GetParam()));
+        int lost = 0, all = 0;
+        for (std::uint32_t frame = 0; frame < 12; ++frame) {
+            frames.run(frame, moved(scene, {0.0f, step * float(frame), 0.0f}));
+            const auto motion = frames.read<float>("followed motion");
+            for (int i = 4 * kWidth; frame > 0 && i < (kHeight - 4) * kWidth; ++i) {
+                lost += std::abs(motion[std::size_t(i)]) > 1000.0f ? 1 : 0;
+                ++all;
+            }
+        }
+        // Beside the disk three texels fit into a side of a ridge.
+        if (step == 0.0f)
+            EXPECT_EQ(lost, 0);
+        else
+            EXPECT_LT(double(lost), 0.02 * double(all));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, BeyondTheDisk,
+                         testing::Values("logpolar+taa", "logpolar+taa+upscale", "logrect+taa"),
+                         [](const auto& mode) {
+                             std::string name = mode.param;
+                             std::replace(name.begin(), name.end(), '+', '_');
+                             return name;
+                         });
+
+} // namespace
