@@ -30,10 +30,9 @@ constexpr std::uint32_t kOrbitWarmUp = 12;
 constexpr std::array kSweep = {0.0f,  0.05f, 0.075f, 0.1f, 0.125f, 0.15f, 0.175f, 0.2f,
                                0.25f, 0.3f,  0.4f,   0.5f, 0.6f,   0.8f,  1.0f};
 
-std::tuple<const std::string&, const std::string&, const std::string&, std::uint32_t, std::uint32_t,
-           std::uint32_t, std::uint32_t, const std::string&, std::optional<double>>
-key(const ThesisRow& r) {
-    return {r.scene, r.view, r.mode, r.width, r.height, r.frames, r.warm_up, r.device, r.disk};
+auto key(const ThesisRow& r) {
+    return std::tie(r.scene, r.view, r.mode, r.ours, r.lights, r.width, r.height, r.frames,
+                    r.warm_up, r.device, r.disk);
 }
 
 void check(const ThesisOptions& o) {
@@ -326,8 +325,11 @@ class Run {
 
   private:
     bool take(const ThesisRow& wanted) {
-        const auto at = std::find_if(known_.begin(), known_.end(),
-                                     [&](const ThesisRow& row) { return key(row) == key(wanted); });
+        // A row without motion is no answer where it is asked for; the sweep never has it.
+        const bool moves = options_.orbit > 0 && !wanted.disk;
+        const auto at = std::find_if(known_.begin(), known_.end(), [&](const ThesisRow& row) {
+            return key(row) == key(wanted) && (row.flicker || !moves);
+        });
         if (at == known_.end())
             return false;
         all_.push_back(*at);

@@ -51,6 +51,8 @@ struct Method {
     // What follows them: "name+taa", "name+upscale", "name+taa+upscale".
     bool antialiased = false, upscaled = false;
 
+    // Fewer samples, or older ones, away from the gaze.
+    bool foveates() const;
     frame::Graph make(const stage::Kit& kit, const Options& options) const;
     // Pixels that are rendered for a picture of width x height.
     Size render_size(std::uint32_t width, std::uint32_t height, const TemporalOptions& t) const;

@@ -35,6 +35,10 @@ constexpr std::array kMethods = {
 
 } // namespace
 
+bool Method::foveates() const {
+    return base != make_full && base != make_lowres;
+}
+
 std::span<const Method> methods() {
     return kMethods;
 }

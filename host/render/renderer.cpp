@@ -73,6 +73,10 @@ frame::FrameSettings settings_of(const scene::Scene& scene, const Options& optio
         s.background[i] = scene.background[i];
     }
     frame::check(s);
+    if (options.lod_bias < 0.0f && method.foveates())
+        throw std::invalid_argument(fmt::format("a bias of texture levels below 0, {}, is for "
+                                                "methods that do not foveate: {} would flicker",
+                                                options.lod_bias, method.name));
     if (options.layers < 1 || options.layers > kMaxLayers)
         throw std::invalid_argument(
             fmt::format("layers {} is not between 1 and {}", options.layers, kMaxLayers));

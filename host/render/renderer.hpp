@@ -41,7 +41,8 @@ struct Options {
     std::uint32_t ambient_occlusion_samples = 16; // 1..4096
     float ambient_occlusion_radius = 0.0f;        // world units; 0: the scene's
     std::uint32_t samples_per_pixel = 1;          // 1..65536
-    float lod_bias = 0.0f; // levels that every texture lookup goes up, -16..16
+    float lod_bias = 0.0f; // levels that every texture lookup goes up, -16..16; below
+                           // 0 only for methods that do not foveate
     std::uint32_t seed = 0;
     std::uint32_t depth = 1;  // levels of reflected and refracted rays, 0..16
     std::uint32_t layers = 4; // blended surfaces kept along a ray, 1..16

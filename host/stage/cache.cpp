@@ -179,7 +179,7 @@ frame::Stage place_surfaces(const FoveatedKit& kit) {
             samples
                 .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
                      run["surface depth"], run["surface motion"], run["surface geometric normal"],
-                     run["surface planes"], compute::Buffer())
+                     compute::Buffer(), run["surface planes"], compute::Buffer())
                 .launch(name, {kit.kit.slots()}, {kGroup});
         };
     };

@@ -22,6 +22,8 @@ frame::Stage place(const Kit& kit, const frame::Resource& to, const std::string&
     stage.name = "place surfaces";
     stage.reads = {"ray count", "pixel of slot", "surface depth", "surface motion",
                    "surface geometric normal"};
+    if (!texels.empty())
+        stage.reads.emplace_back("surface position");
     stage.writes = {to};
     stage.prepare = [kit, to, texels, name = stage.name] {
         auto kernel = kit.library.kernel(kernel::VariantKey("upscale/surfaces"), "place_surfaces",
@@ -33,7 +35,8 @@ frame::Stage place(const Kit& kit, const frame::Resource& to, const std::string&
             kernel
                 .set(run.params_buffer(), run["ray count"], run["pixel of slot"],
                      run["surface depth"], run["surface motion"], run["surface geometric normal"],
-                     run[to.name], texels.empty() ? none : run[texels])
+                     texels.empty() ? none : run["surface position"], run[to.name],
+                     texels.empty() ? none : run[texels])
                 .launch(name, {kit.slots()}, {kGroup});
         };
     };

@@ -8,6 +8,9 @@
 
 /* Cosine of the angle at which the gaze is taken to leave the image for good. */
 #define LEAST_FORWARD 0.05f
+/* How far outside of the image the gaze may lie, part of the diagonal: from further away a few
+ * texels would stand for all of it, and their samples lie outside. */
+#define MOST_OUTSIDE 0.25f
 
 static inline float distance_of(float x, float y) {
     return m_sqrt(fma(x, x, y * y));
@@ -33,19 +36,25 @@ kernel void place_fovea(global const FrameParams* restrict frame,
     const float width = (float)frame->width, height = (float)frame->height;
     const float3 gaze = vector_at(frame->gaze);
     const float forward = m_max(dot3(gaze, vector_at(frame->camera.forward)), LEAST_FORWARD);
-    const float right = m_divide(dot3(gaze, vector_at(frame->camera.right)), forward);
-    const float up = m_divide(dot3(gaze, vector_at(frame->camera.up)), forward);
-    const float per_x = m_divide(width, frame->camera.tan_right + frame->camera.tan_left);
-    const float per_y = m_divide(height, frame->camera.tan_up + frame->camera.tan_down);
-    const float x = (right + frame->camera.tan_left) * per_x;
-    const float y = (frame->camera.tan_up - up) * per_y;
+    global const Camera* camera = &frame->camera;
+    const float per_x = m_divide(width, camera->tan_right + camera->tan_left);
+    const float per_y = m_divide(height, camera->tan_up + camera->tan_down);
+    const float diagonal = distance_of(width, height);
+    const float out_x = m_divide(MOST_OUTSIDE * diagonal, per_x);
+    const float out_y = m_divide(MOST_OUTSIDE * diagonal, per_y);
+    const float right = clamped(m_divide(dot3(gaze, vector_at(camera->right)), forward),
+                                -camera->tan_left - out_x, camera->tan_right + out_x);
+    const float up = clamped(m_divide(dot3(gaze, vector_at(camera->up)), forward),
+                             -camera->tan_down - out_y, camera->tan_up + out_y);
+    const float x = (right + camera->tan_left) * per_x;
+    const float y = (camera->tan_up - up) * per_y;
     const float corner_x = m_max(x, width - x), corner_y = m_max(y, height - y);
     const float far = distance_of(corner_x, corner_y);
 
     /* On the image a small angle grows with the square of the secant. */
     const float secant = fma(right, right, fma(up, up, 1.0f));
     const float by_angle = params->disk_tangent * m_sqrt(per_x * per_y) * secant;
-    const float by_size = params->disk * 0.5f * distance_of(width, height);
+    const float by_size = params->disk * 0.5f * diagonal;
     const float wanted = (params->disk_tangent > 0.0f ? by_angle : by_size) * frame->gaze_widening;
     const float radius = fitting_radius(frame, params, x, y, wanted);
     fovea->x = x;

@@ -1,7 +1,8 @@
 /* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
  * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
  * next frame's for others there: motion is the mean over the samples around a pixel, depth their
- * range. */
+ * range, and of normals there are sets. Only where something moves by itself before or behind
+ * something else, all goes with what is nearest. */
 #include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
@@ -21,17 +22,32 @@ typedef struct Place {
 
 /* Of three by three texels. */
 typedef struct Sums {
-    Real least, most;                 /* depths */
-    Real light, squares, count;       /* of their luminance */
-    Real motion_x, motion_y, movable; /* of those that were in view */
-    Uint facing;                      /* a set of normals */
+    Real least, most;                  /* depths */
+    Real near_x, near_y, far_x, far_y; /* motion of the nearest and of the farthest one */
+    Real light, squares, count;        /* of their luminance */
+    Real motion_x, motion_y, movable;  /* of those that were in view */
+    Uint facing;                       /* a set of normals */
+    Mask moving;                       /* one of them moves by itself */
 } Sums;
+
+static inline Sums no_texels(void) {
+    const Real zero = splat(0.0f);
+    const Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
+                       zero, zero, zero, zero, splat_uint(0u), zero < zero};
+    return sums;
+}
 
 static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel) {
     const Real3 surface = texel.xyz;
     const Real one = splat(1.0f), zero = splat(0.0f), none = splat(MACULA_NO_MOTION);
-    sums->least = sampled ? m_min(sums->least, surface.x) : sums->least;
-    sums->most = sampled ? m_max(sums->most, surface.x) : sums->most;
+    const Mask nearer = sampled & (surface.x <= sums->least);
+    const Mask farther = sampled & (surface.x >= sums->most);
+    sums->least = nearer ? surface.x : sums->least;
+    sums->near_x = nearer ? surface.y : sums->near_x;
+    sums->near_y = nearer ? surface.z : sums->near_y;
+    sums->most = farther ? surface.x : sums->most;
+    sums->far_x = farther ? surface.y : sums->far_x;
+    sums->far_y = farther ? surface.z : sums->far_y;
     sums->light = sums->light + (sampled ? light : zero);
     sums->squares = sampled ? fma(light, light, sums->squares) : sums->squares;
     sums->count = sums->count + (sampled ? one : zero);
@@ -39,7 +55,14 @@ static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel)
     sums->motion_x = sums->motion_x + (moved ? surface.y : zero);
     sums->motion_y = sums->motion_y + (moved ? surface.z : zero);
     sums->movable = sums->movable + (moved ? one : zero);
-    sums->facing = sums->facing | to_uint(sampled ? texel.w : zero);
+    sums->facing = sums->facing | to_uint(sampled ? fabs(texel.w) : zero);
+    sums->moving = sums->moving | (sampled & (texel.w < zero));
+}
+
+/* Something moves by itself before or behind something else. */
+static inline Mask is_seam(const Sums* s) {
+    const Real apart = m_max(fabs(s->near_x - s->far_x), fabs(s->near_y - s->far_y));
+    return s->moving & (apart > splat(OWN_MOTION));
 }
 
 /* The texels from an index on, of which `whole` says that none lies beyond the buffer. */
@@ -47,9 +70,12 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
     return whole ? load4(texels, first) : gather4(texels, min(lanes_from(first), splat_uint(last)));
 }
 
-/* One work-item a strip of a row of texels. ranges: the least and the greatest depth of three by
- * three texels, the negative of the set of their normals; motions: their mean, the deviation of the
- * luminance, 1.
+/* One work-item a strip of a row of texels. surfaces: as of place_surfaces(). ranges: the least and
+ * the greatest depth of three by three texels, the negative of the set of their normals, and the
+ * greatest depth that the next frame may look for: what is uncovered at a seam must not find the
+ * history that went with the nearest. motions: the mean or the nearest's, the deviation of the
+ * luminance, 1. How the two sides of a seam differ is no noise, and what the one left behind on the
+ * other no history.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -63,8 +89,7 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const uint pitch = params->pitch, last = pitch * params->height - 1u;
     const bool whole = s.x + MACULA_LANES + 2 <= (int)pitch;
     const Real zero = splat(0.0f);
-    Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
-                 splat_uint(0u)};
+    Sums sums = no_texels();
     for (int k = 0; k < 9; ++k) {
         /* A row begins with an empty texel. */
         const Int i = strip_columns(&s) + k % 3;
@@ -83,10 +108,14 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     const Real moved = m_divide(one, m_max(sums.movable, one));
     const uint to = (uint)s.y * pitch + (uint)s.x + 1u;
     const Mask inside = strip_inside(&s);
+    const Mask seam = is_seam(&sums);
+    const Mask with_nearest = seam & (fabs(sums.near_x) < splat(MACULA_NO_MOTION));
     scatter4(ranges, lanes_from(to), inside,
-             make3(sums.least, sums.most, -uint_to_real(sums.facing)), zero);
+             make3(sums.least, sums.most, -uint_to_real(sums.facing)),
+             seam ? sums.least : sums.most);
     scatter4(motions, lanes_from(to), inside,
-             make3(sums.motion_x * moved, sums.motion_y * moved, spread),
+             make3(with_nearest ? sums.near_x : sums.motion_x * moved,
+                   with_nearest ? sums.near_y : sums.motion_y * moved, seam ? zero : spread),
              sums.movable > zero ? one : zero);
 }
 
@@ -127,9 +156,9 @@ static inline Shown show_texels(global const LogPolarParams* params, global cons
                                 global const float4* motions, const Place* p) {
     const Uint nearest = texel_at(params, to_int(rint(p->column)), to_int(rint(p->row)));
     const Lane4 motion = motion_at(params, motions, p);
-    const Real3 range = gather4(ranges, nearest).xyz;
-    const Depths depths = {range.x, range.y};
-    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, depths, range.z, motion.xyz.z};
+    const Lane4 range = gather4(ranges, nearest);
+    const Depths depths = {range.xyz.x, range.xyz.y}, kept = {range.xyz.x, range.w};
+    const Shown shown = {motion.xyz.x, motion.xyz.y, depths, kept, range.xyz.z, motion.xyz.z};
     return shown;
 }
 

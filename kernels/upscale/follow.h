@@ -42,6 +42,8 @@ static inline Nearest nearest_surface(global const float* surfaces, uint pixels,
 
 /* Pixels of motion between an edge and what is behind it. */
 #define SEAM_MOTION 0.25f
+/* Pixels of motion that are no rounding, where only what moves by itself counts. */
+#define OWN_MOTION 0.0625f
 
 /* The depth beside the nearest one that the next frame may look for: the pixel's own, unless its
  * history went with the nearest surface, which moves otherwise. What is uncovered there must not

@@ -76,6 +76,29 @@ TEST(BenchThesis, ALineIsReadBackAndNotMeasuredAgain) {
     EXPECT_EQ(json_line(first.front()), json_line(second.front()));
 }
 
+TEST(BenchThesis, ALineOfOtherLightsOrWithoutMotionIsNoAnswer) {
+    const File file("other.jsonl");
+    ThesisOptions options = small();
+    options.views = {"cornell box"};
+    options.modes = {"logpolar"};
+    options.orbit = 0;
+    options.resume = file.path();
+    std::size_t measured = 0;
+    ThesisProgress progress;
+    progress.row = [&](const ThesisRow&, bool is_new) { measured += is_new ? 1 : 0; };
+    run_thesis(options, progress);
+    options.lights = frame::LightMode::soft;
+    run_thesis(options, progress);
+    EXPECT_EQ(measured, 2u);
+    options.orbit = 2;
+    const auto rows = run_thesis(options, progress);
+    EXPECT_EQ(measured, 3u);
+    EXPECT_TRUE(rows.front().flicker);
+    options.orbit = 0;
+    run_thesis(options, progress);
+    EXPECT_EQ(measured, 3u) << "more than is asked for will do";
+}
+
 // Equation 5.1 against the rays of the frames.
 TEST(BenchThesis, TheSweepsSamplesAreThePredictedOnesButForTheDisksEdgeAndTexelsOutside) {
     ThesisOptions options = small();

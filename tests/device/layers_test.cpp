@@ -54,7 +54,7 @@ scene::Scene panes(const std::vector<Pane>& all) {
 
 // Sorted by depth, the nearest `kept` blended over the wall; those behind merged into the last.
 glm::dvec3 sorted(std::vector<Pane> all, std::size_t kept) {
-    std::ranges::sort(all, {}, &Pane::distance);
+    std::ranges::stable_sort(all, {}, &Pane::distance);
     glm::dvec3 colour(0.0);
     double clear = 1.0;
     for (std::size_t i = 0; i < std::min(kept, all.size()); ++i) {
@@ -97,6 +97,21 @@ TEST(Layers, AreBlendedAsSortingThemBlendsThem) {
                 ASSERT_LT(glm::length(at(colour, i) - (room ? expected : two)), 1e-5)
                     << some.size() << " panes, " << kept << " kept, pixel " << i;
         }
+    }
+}
+
+// At the same distance the triangles' order decides, whichever of them traversal finds first.
+TEST(Layers, AtEqualDepthsTheEarlierTriangleIsInFront) {
+    const std::vector<Pane> some = {
+        {4, {1, 0, 0}, 0.5f}, {4, {0, 1, 0}, 0.5f}, {2, {0, 0, 1}, 0.3f}, {4, {1, 1, 0}, 0.4f}};
+    for (const std::uint32_t kept : {1u, 2u, 3u, 4u, 8u}) {
+        render::Options o = options(kept);
+        o.width = o.height = 33; // with room for all
+        render::Renderer renderer(device(), panes(some), o);
+        renderer.render(0);
+        const render::Image colour = renderer.map("colour");
+        for (std::uint32_t i = 0; i < pixels(colour); ++i)
+            ASSERT_LT(glm::length(at(colour, i) - sorted(some, kept)), 1e-5) << kept << ' ' << i;
     }
 }
 

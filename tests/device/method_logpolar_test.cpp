@@ -51,17 +51,20 @@ INSTANTIATE_TEST_SUITE_P(Lights, EachMode,
                                          LightMode::ambient_occlusion));
 
 // Equation 5.1 in double precision: the disk's pixels, and the texels beyond the columns that lie
-// in it. The thesis counts all of these texels; those that do not reach into the image are left
-// out.
+// in it but for its faded edge, and two more for the filter. The thesis counts all of these texels;
+// those that do not reach into the image are left out.
 struct Prediction {
     double disk = 0.0, texels = 0.0, texels_in_image = 0.0;
 };
 
-Prediction predict(const WeierSetup& setup, double x, double y, double first_column) {
+Prediction predict(const WeierSetup& setup, double x, double y) {
     const stage::LogPolarOptions& o = setup.log_polar;
     const double width = std::lround(96 / o.sigma), height = std::lround(80 / o.sigma);
     const double far = std::log1p(std::hypot(std::max(x, 96.0 - x), std::max(y, 80.0 - y)));
     const double radius = o.disk * 0.5 * std::hypot(96.0, 80.0);
+    const double inner = std::log1p(radius * (1.0 - o.fade)) / far; // equation 4.5
+    const double first_column =
+        std::max(std::floor(std::pow(std::min(inner, 1.0), 1.0 / o.alpha) * width - 2.0), 0.0);
     Prediction sum;
     for (double py = 0.5; py < 80.0; ++py)
         for (double px = 0.5; px < 96.0; ++px)
@@ -83,21 +86,21 @@ Prediction predict(const WeierSetup& setup, double x, double y, double first_col
 TEST(Samples, AreAsManyAsEquation51Says) {
     const scene::Camera& view = cornell().cameras.front();
     for (const float alpha : {1.0f, 2.0f, 4.0f})
-        for (const float disk : {0.15f, 0.4f}) {
-            WeierSetup setup = logpolar(alpha, 1.2f, disk);
+        for (const auto& [sigma, disk] : {std::pair{1.2f, 0.15f}, {1.2f, 0.4f}, {1.8f, 0.7f}}) {
+            WeierSetup setup = logpolar(alpha, sigma, disk);
             setup.outputs = {"fovea"};
             WeierFrames frames(device(), cornell(), setup);
             std::uint64_t before = 0;
-            for (const float x : {48.0f, 20.5f}) {
+            for (const float x : {48.0f, 20.5f, -15.0f}) {
                 frames.run(0, view, gaze_through(view, x, 33.0f));
                 const auto fovea = frames.read<shared::Fovea>("fovea").front();
                 EXPECT_NEAR(fovea.x, x, 1e-3f);
                 EXPECT_NEAR(fovea.y, 33.0f, 1e-3f);
                 const std::uint64_t all = frames.rays(kernel::RayClass::sparse);
-                const Prediction p = predict(setup, x, 33.0, fovea.first_column);
+                const Prediction p = predict(setup, x, 33.0);
                 const double expected = p.disk + p.texels_in_image;
                 EXPECT_NEAR(double(all - before), expected, 0.01 * expected)
-                    << "alpha " << alpha << ", disk " << disk << ", x " << x;
+                    << "alpha " << alpha << ", sigma " << sigma << ", disk " << disk << ", x " << x;
                 EXPECT_LT(double(all - before), p.disk + p.texels) << "none is traced in vain";
                 before = all;
             }
@@ -136,6 +139,61 @@ TEST(Remap, KeepsAnEvenPictureForEveryGaze) {
             ASSERT_NEAR(colour[i + 2], 0.75f, 1e-6f);
             ASSERT_EQ(colour[i + 3], 1.0f);
         }
+    }
+}
+
+double mean_green(const WeierFrames& frames) {
+    const auto colour = frames.read<float>("colour");
+    double sum = 0.0;
+    for (std::size_t i = 1; i < colour.size(); i += 4)
+        sum += colour[i];
+    return 4.0 * sum / double(colour.size());
+}
+
+// From far away one texel would stand for the whole image, and its sample lie outside, where this
+// wall ends: the gaze counts as one a quarter of the diagonal away.
+TEST(Remap, AGazeFarOutsideOfTheImageStillShowsIt) {
+    scene::Scene scene = glowing_wall();
+    for (glm::vec3& p : scene.meshes[0].positions)
+        p *= glm::vec3(6.0f / 4000.0f, 5.0f / 4000.0f, 1.0f);
+    const scene::Camera& view = scene.cameras.front();
+    WeierSetup setup = logpolar(4.0f, 1.8f, 0.15f);
+    setup.outputs = {"fovea"};
+    WeierFrames frames(device(), scene, setup);
+    const float outside = 0.25f * std::hypot(96.0f, 80.0f) + 0.01f;
+    for (const glm::vec2 at : {glm::vec2(9000, 40), {48, -9000}, {-9000, 9000}, {300, 300}}) {
+        frames.run(0, view, gaze_through(view, at.x, at.y));
+        const auto fovea = frames.read<shared::Fovea>("fovea").front();
+        EXPECT_LT(std::abs(fovea.x - 48.0f), 48.0f + outside);
+        EXPECT_LT(std::abs(fovea.y - 40.0f), 40.0f + outside);
+        EXPECT_GT(mean_green(frames), 0.35) << at.x << ", " << at.y;
+    }
+}
+
+// Squares of 0 and 1, a pixel and a half across. Some hundred samples are not enough for a mean:
+// those of many gazes are.
+TEST(Remap, ACheckerboardKeepsItsMean) {
+    scene::Scene scene = glowing_wall();
+    scene::Mesh& mesh = scene.meshes[0];
+    scene.materials.resize(3, scene.materials[0]);
+    scene.materials[0].emission = glm::vec3(0.5f);
+    scene.materials[1].emission = glm::vec3(0.0f);
+    scene.materials[2].emission = glm::vec3(1.0f);
+    for (int j = -40; j < 40; ++j)
+        for (int i = -44; i < 44; ++i)
+            add_quad(mesh, {0.13f * float(i), 0.13f * float(j), -4}, {0.13f, 0, 0}, {0, 0.13f, 0},
+                     std::uint32_t(1 + ((i + j) & 1)));
+    const scene::Camera& view = scene.cameras.front();
+    constexpr int kGazes = 48;
+    for (const float alpha : {1.0f, 4.0f}) {
+        WeierFrames frames(device(), scene, logpolar(alpha, 1.8f, 0.15f));
+        double sum = 0.0;
+        for (int i = 0; i < kGazes; ++i) {
+            frames.run(0, view,
+                       gaze_through(view, -5.0f + 2.23f * float(i), float((i * 37) % 80) + 0.3f));
+            sum += mean_green(frames) / kGazes;
+        }
+        EXPECT_NEAR(sum, 0.5, 0.015) << alpha;
     }
 }
 

@@ -55,7 +55,6 @@ bool near(const Mask& mask, std::uint32_t pixel, int margin, bool wanted) {
 
 struct Allowed {
     int margin = 0;          // pixels from the outline: those of a method's coarsest sample
-    std::size_t stray = 0;   // pixels beyond it
     std::size_t history = 1; // frames, this one included, in which a pixel may have been refreshed
 };
 
@@ -66,11 +65,9 @@ constexpr int kSeam = 4;
 Allowed allowed(const std::string& method) {
     const int seam = method.find('+') == std::string::npos ? 0 : kSeam;
     if (method == "rrm")
-        return {0, 0, 12}; // 3 x 4 blocks in turn
+        return {0, 12}; // 3 x 4 blocks in turn
     if (method.starts_with("log"))
-        // Beyond the disk texels on an outline have the depths of both sides, and keep the history
-        // of either for a while (docs/methods/upscale.md).
-        return {6 + seam, seam == 0 ? 0u : 64u};
+        return {6 + seam};
     if (method.starts_with("lowres"))
         return {4};
     return {seam};
@@ -108,7 +105,7 @@ TEST_P(EachMethod, LeavesNoTrailAndLosesNothing) {
             trail += shown[i] && !known;
             lost += !shown[i] && !known;
         }
-        EXPECT_LE(trail, limits.stray) << "frame " << frame;
+        EXPECT_EQ(trail, 0u) << "frame " << frame;
         EXPECT_EQ(lost, 0u) << "frame " << frame;
     }
 }

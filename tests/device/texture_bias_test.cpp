@@ -83,6 +83,23 @@ TEST(TextureBias, OutOfRangeIsAnError) {
     EXPECT_THROW(stage::parse_lod_rule("pixel"), std::invalid_argument);
 }
 
+// Section 4.1.2: what is foveated must not be sharpened.
+TEST(TextureBias, BelowZeroIsRefusedWhereverAMethodFoveates) {
+    std::size_t refused = 0;
+    for (const method::Method& method : method::methods()) {
+        render::Options o;
+        o.method = method.name;
+        o.lod_bias = -0.5f;
+        const bool allowed = o.method.starts_with("full") || o.method == "lowres";
+        if (allowed)
+            EXPECT_NO_THROW(middle_level(o)) << o.method;
+        else
+            EXPECT_THROW(middle_level(o), std::invalid_argument) << o.method;
+        refused += allowed ? 0 : 1;
+    }
+    EXPECT_GE(refused, 12u);
+}
+
 double phi(double u, double alpha) {
     const double t = std::pow(u, alpha), step = t * t * (3.0 - 2.0 * t);
     return 3.0 * std::pow(step, 3.0);

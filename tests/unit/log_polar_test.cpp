@@ -89,4 +89,31 @@ TEST(Rows, GoOnceAroundAndComeBack) {
     EXPECT_EQ(log_polar_row(&p, 0.0f, 0.0f), 0.0f);
 }
 
+// Both directions at once, in the image's coordinates: the gaze's own pixel, one at a pixel's edge,
+// a corner, and gazes outside of the image. The bound is a fiftieth of a pixel and what rounding
+// takes of the distance.
+TEST_P(Kernel, PointsOfTheImageComeBackWhereverTheGazeIs) {
+    const LogPolarParams p = params(GetParam());
+    for (const auto& [gaze_x, gaze_y] : {std::pair{960.5f, 540.5f},
+                                         {960.0f, 540.0f},
+                                         {0.0f, 1080.0f},
+                                         {-400.0f, 300.0f},
+                                         {2400.0f, -500.0f}}) {
+        const Fovea f = fovea(
+            std::hypot(std::max(gaze_x, 1920.0f - gaze_x), std::max(gaze_y, 1080.0f - gaze_y)));
+        for (int j = 0; j < 1080; j += 9)
+            for (int i = 0; i < 1920; i += 8) {
+                const float x = float(i) + 0.5f, y = float(j) + 0.5f;
+                const float dx = x - gaze_x, dy = y - gaze_y, distance = std::hypot(dx, dy);
+                const float column = log_polar_column(&p, &f, distance);
+                float cosine;
+                const float sine = log_polar_direction(&p, log_polar_row(&p, dx, dy), &cosine);
+                const float back = log_polar_distance(&p, &f, column);
+                const float bound = 0.02f + distance * 2e-6f * (GetParam() + 1.0f);
+                ASSERT_NEAR(gaze_x + back * cosine, x, bound) << gaze_x << ", " << gaze_y;
+                ASSERT_NEAR(gaze_y + back * sine, y, bound) << x << ", " << y;
+            }
+    }
+}
+
 } // namespace
