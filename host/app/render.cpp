@@ -216,18 +216,23 @@ int render_frames(app::RenderOptions options) {
     const bool json = options.json || (isatty(STDOUT_FILENO) == 0 && !options.hash);
     std::signal(SIGINT, on_interrupt);
     const Progress progress(range);
-    bool skipped = false;
-    for (std::uint32_t frame = range.first; frame < range.end && interrupted == 0; ++frame) {
-        if (options.resume && std::all_of(eyes.begin(), eyes.end(), [&](const EyeRun& run) {
-                return run.files.exist(frame);
-            })) {
-            skipped = true;
+    const auto is_there = [&](std::uint32_t frame) {
+        return options.resume && std::all_of(eyes.begin(), eyes.end(), [&](const EyeRun& run) {
+                   return run.files.exist(frame);
+               });
+    };
+    // A history needs all frames before, and motion vectors the last one.
+    const bool needs_all = eyes.front().renderer.has_history();
+    std::uint32_t end = range.end;
+    while (end > range.first && is_there(end - 1))
+        --end;
+    for (std::uint32_t frame = range.first; frame < end && interrupted == 0; ++frame) {
+        const bool done = is_there(frame);
+        if (done && !needs_all && is_there(frame + 1))
             continue;
-        }
-        if (skipped) // motion vectors need the view before
-            render_eyes(eyes, views, frame - 1, devices.size() > 1);
-        skipped = false;
         const auto reports = render_eyes(eyes, views, frame, devices.size() > 1);
+        if (done)
+            continue;
         for (std::size_t i = 0; i < eyes.size(); ++i)
             deliver(options, eyes[i], reports[i], json);
         progress.show(reports.front());

@@ -175,7 +175,7 @@ void RenderOptions::add_to(CLI::App& command) {
     command.add_option("--aov", aovs, "Further EXR channels, see --list-aovs")->delimiter(',');
     command.add_flag("--json", json, "One JSON line a frame");
     command.add_flag("--hash", hash, "Print `hash <hex>` of each frame's bits");
-    command.add_flag("--resume", resume, "Skip frames whose files exist");
+    command.add_flag("--resume", resume, "Write no frame whose files exist");
     command.add_flag("--list-variants", list_variants, "Why a traversal variant does not apply");
     command.add_flag("--list-aovs", list_aovs, "What --aov can name");
 }

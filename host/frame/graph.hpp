@@ -90,6 +90,8 @@ class Graph {
     const compute::Buffer& result(const std::string& name) const;
     // Drops the history: the next frame is a first one.
     void forget();
+    // Frames depend on those before. After compile().
+    bool has_history() const { return !history_.empty(); }
 
   private:
     struct Node {

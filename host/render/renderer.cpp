@@ -1,5 +1,6 @@
 #include "host/render/renderer.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <stdexcept>
@@ -115,6 +116,22 @@ frame::Graph make_graph(const stage::Kit& kit, const Options& o) {
     return graph;
 }
 
+// Throws std::invalid_argument for an image that the method does not make, with those that it does.
+void check_images(const frame::Graph& graph, const std::vector<std::string>& images) {
+    const std::vector<std::string> made = graph.resources();
+    const auto makes = [&](std::string_view name) {
+        return std::find(made.begin(), made.end(), name) != made.end();
+    };
+    std::vector<std::string_view> known;
+    for (const ImageFormat& format : kFormats)
+        if (makes(format.name))
+            known.push_back(format.name);
+    for (const std::string& image : images)
+        if (!makes(image))
+            throw std::invalid_argument(fmt::format("method {} has no image \"{}\"; it has {}",
+                                                    graph.name(), image, fmt::join(known, ", ")));
+}
+
 compute::Buffer zeroed_counters(compute::Device& device) {
     const std::array<std::uint64_t, kernel::kRayClasses.size()> zeros{};
     return device.upload(std::span(zeros), "ray counts");
@@ -150,6 +167,7 @@ struct Renderer::State {
                             on_device->blended ? o.layers : 0, on_device->blended.get()},
                            o)),
           timings(o.warm_up_frames), begun(on_device->frames()) {
+        check_images(graph, o.images);
         std::set<std::string> outputs(o.images.begin(), o.images.end());
         outputs.erase(kFormats.front().name);
         outputs.insert(colour());
@@ -293,6 +311,10 @@ const frame::GeometryStatistics& Renderer::geometry() const {
 
 std::string Renderer::variant(kernel::RayClass ray_class) const {
     return state_->tracer.choice(ray_class).variant->name;
+}
+
+bool Renderer::has_history() const {
+    return state_->graph.has_history();
 }
 
 std::string Renderer::explain() const {

@@ -132,6 +132,9 @@ class Renderer {
     // that share a scene that moves are reset together, before the next frame of any.
     void reset();
 
+    // Pictures depend on the frames before.
+    bool has_history() const;
+
     const Options& options() const;
     const frame::Timings& timings() const;
     const frame::GeometryStatistics& geometry() const;

@@ -67,7 +67,7 @@ compute::Range Kit::lane_group() const {
 
 compute::Range Kit::strips(std::uint32_t of_width, std::uint32_t of_height) const {
     const std::uint64_t across = (of_width + lanes - 1) / lanes;
-    return {compute::Range::cover(across * of_height, kGroup / lanes)};
+    return {compute::Range::cover(across * of_height, kStripGroup)};
 }
 
 std::uint32_t lanes_for(const compute::Device& device) {

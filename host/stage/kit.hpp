@@ -80,6 +80,9 @@ std::uint32_t lanes_for(const compute::Device& device);
 
 // Slots of a group of all shading kernels: slots and batches are multiples of it.
 inline constexpr std::size_t kGroup = 64;
+// Strips of a group, also of several lanes each: those that have nothing to do return at once, and
+// starting a group for four of them takes longer than they do.
+inline constexpr std::size_t kStripGroup = 64;
 
 // A resource with one entry for each ray slot, or for each pixel.
 frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t element_bytes);

@@ -191,14 +191,14 @@ frame::Stage upscale(const TemporalKit& kit) {
                      kit.foveated ? run["sample spread"] : none, run["followed motion"],
                      run.last("upscaled planes"), kit.cached ? run["fresh pixels"] : none,
                      run["upscaled planes"])
-                .launch(name, range, kit.kit.lane_group());
+                .launch(name, range, {kStripGroup});
             if (beyond_disk(kit) == MACULA_BEYOND_SMOOTH)
                 enlarge.set(run.params_buffer(), width, height, colours, run["upscaled colour"])
-                    .launch("upscale beyond the disk", blocks, kit.kit.lane_group());
+                    .launch("upscale beyond the disk", blocks, {kStripGroup});
             sharpen
                 .set(run.params_buffer(), width, height, beyond_disk(kit), strength, fovea,
                      run["upscaled planes"], run["upscaled colour"])
-                .launch("sharpen", range, kit.kit.lane_group());
+                .launch("sharpen", range, {kStripGroup});
         };
     };
     return stage;

@@ -1,8 +1,7 @@
 /* What the pixels of log-polar and log-rectilinear foveation show, for what gathers samples over
  * frames: where it was and how far away. Beyond the disk a sample stands for many pixels, and the
- * next frame's for others there: motion is the mean over the samples around a pixel, depth their
- * range, and of normals there are sets. Only where something moves by itself before or behind
- * something else, all goes with what is nearest. */
+ * next frame's for others there: motion is the mean over the samples around a pixel, at edges over
+ * those of what is in front, depth their range, and of normals there are sets. */
 #include "shared/ray.h"
 #include "upscale/follow.h"
 #include "upscale/fovea.h"
@@ -20,12 +19,15 @@ typedef struct Place {
 #include "remap/places_polar.h"
 #endif
 
+/* A depth. */
+#define BEHIND_ALL 2e30f
+
 /* Of three by three texels. */
 typedef struct Sums {
     Real least, most;                  /* depths */
     Real near_x, near_y, far_x, far_y; /* motion of the nearest and of the farthest one */
     Real light, squares, count;        /* of their luminance */
-    Real motion_x, motion_y, movable;  /* of those that were in view */
+    Real front, motion_x, motion_y, movable; /* of the nearest of those that were in view */
     Uint facing;                       /* a set of normals */
     Mask moving;                       /* one of them moves by itself */
 } Sums;
@@ -33,8 +35,19 @@ typedef struct Sums {
 static inline Sums no_texels(void) {
     const Real zero = splat(0.0f);
     const Sums sums = {splat(MACULA_BACKGROUND_DEPTH), zero, zero, zero, zero, zero, zero, zero,
-                       zero, zero, zero, zero, splat_uint(0u), zero < zero};
+                       zero, splat(BEHIND_ALL), zero, zero, zero, splat_uint(0u), zero < zero};
     return sums;
+}
+
+/* The edge of what is in front moves with it. */
+static inline void add_motion(Sums* sums, Mask moved, Real3 surface) {
+    const Real one = splat(1.0f), zero = splat(0.0f);
+    const Mask closer = moved & (surface.x < sums->front * splat(1.0f - DEPTH_TOLERANCE));
+    const Mask counts = moved & (surface.x <= sums->front * splat(1.0f + DEPTH_TOLERANCE));
+    sums->motion_x = (closer ? zero : sums->motion_x) + (counts ? surface.y : zero);
+    sums->motion_y = (closer ? zero : sums->motion_y) + (counts ? surface.z : zero);
+    sums->movable = (closer ? zero : sums->movable) + (counts ? one : zero);
+    sums->front = moved ? m_min(sums->front, surface.x) : sums->front;
 }
 
 static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel) {
@@ -52,9 +65,7 @@ static inline void add_texels(Sums* sums, Mask sampled, Real light, Lane4 texel)
     sums->squares = sampled ? fma(light, light, sums->squares) : sums->squares;
     sums->count = sums->count + (sampled ? one : zero);
     const Mask moved = sampled & (fabs(surface.y) < none) & (fabs(surface.z) < none);
-    sums->motion_x = sums->motion_x + (moved ? surface.y : zero);
-    sums->motion_y = sums->motion_y + (moved ? surface.z : zero);
-    sums->movable = sums->movable + (moved ? one : zero);
+    add_motion(sums, moved, surface);
     sums->facing = sums->facing | to_uint(sampled ? fabs(texel.w) : zero);
     sums->moving = sums->moving | (sampled & (texel.w < zero));
 }
@@ -73,9 +84,10 @@ static inline Lane4 texels_from(global const float4* texels, uint first, bool wh
 /* One work-item a strip of a row of texels. surfaces: as of place_surfaces(). ranges: the least and
  * the greatest depth of three by three texels, the negative of the set of their normals, and the
  * greatest depth that the next frame may look for: what is uncovered at a seam must not find the
- * history that went with the nearest. motions: the mean or the nearest's, the deviation of the
- * luminance, 1. How the two sides of a seam differ is no noise, and what the one left behind on the
- * other no history.
+ * history that went with the nearest. motions: the mean of the nearest surface's, at a seam the
+ * nearest texel's; the deviation of the luminance; that surface's depth, or 0: none has a motion.
+ * How the two sides of a seam differ is no noise, and what the one left behind on the other no
+ * history.
  * Texels without a sample have colours whose alpha is 0. */
 kernel void summarise_texels(global const LogPolarParams* restrict params,
                              global const Fovea* restrict fovea,
@@ -116,25 +128,39 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
     scatter4(motions, lanes_from(to), inside,
              make3(with_nearest ? sums.near_x : sums.motion_x * moved,
                    with_nearest ? sums.near_y : sums.motion_y * moved, seam ? zero : spread),
-             sums.movable > zero ? one : zero);
+             sums.movable > zero ? sums.front : zero);
 }
 
-/* Between two by two texels; those without motion count nothing, and none at all: no motion. */
+/* Where surfaces meet, this much nearer or farther is another one. */
+#define OTHER_SURFACE 1.25f
+
+/* Between two by two texels, of those that show the surface of the nearest one; those without
+ * motion count nothing, and none at all: no motion. */
 static inline Lane4 motion_at(global const LogPolarParams* params, global const float4* motions,
                               const Place* p) {
     const Real left = floor(p->column), top = floor(p->row);
     const Real to_x = p->column - left, to_y = p->row - top;
     const Int column = to_int(left), row = to_int(top);
     const Int right = min(column + 1, splat_int((int)params->width - 1));
-    const Real one = splat(1.0f);
+    const Real one = splat(1.0f), zero = splat(0.0f);
     const Real weights[4] = {(one - to_x) * (one - to_y), to_x * (one - to_y), (one - to_x) * to_y,
                              to_x * to_y};
-    Lane4 sum = {splat_vector(splat3(0.0f)), splat(0.0f)};
+    Lane4 texels[4];
+    Real depth = zero, most = zero;
     for (int k = 0; k < 4; ++k) {
-        const Lane4 texel =
+        texels[k] =
             gather4(motions, texel_at(params, (k & 1) == 0 ? column : right, row + (k >> 1)));
-        const Real weight = weights[k] * texel.w;
-        sum.xyz = scale_add3(texel.xyz, weight, sum.xyz);
+        const Mask nearer = (texels[k].w > zero) & (weights[k] > most);
+        depth = nearer ? texels[k].w : depth;
+        most = nearer ? weights[k] : most;
+    }
+    const Real closest = depth * splat(m_divide(1.0f, OTHER_SURFACE));
+    const Real farthest = depth * splat(OTHER_SURFACE);
+    Lane4 sum = {splat_vector(splat3(0.0f)), zero};
+    for (int k = 0; k < 4; ++k) {
+        const Mask same = (texels[k].w > closest) & (texels[k].w < farthest);
+        const Real weight = same ? weights[k] : zero;
+        sum.xyz = scale_add3(texels[k].xyz, weight, sum.xyz);
         sum.w = sum.w + weight;
     }
     const Mask known = sum.w > splat(1e-3f);

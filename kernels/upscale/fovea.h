@@ -17,6 +17,18 @@ MACULA_ALWAYS_INLINE Real distance_to_gaze(global const Fovea* fovea, const Stri
     return distance_in_picture(fovea, s, 1.0f, 1.0f);
 }
 
+/* No pixel of the strip lies within `reach` of the gaze. What is asked
+ * first of strips, most of which have nothing to do with the disk. */
+MACULA_ALWAYS_INLINE bool is_far_from_gaze(global const Fovea* fovea, const Strip* s, float across,
+                                           float down, float reach) {
+    const float left = fma((float)s->x, across, -fovea->x);
+    const float right = fma((float)(s->x + MACULA_LANES), across, -fovea->x);
+    const float x = left > 0.0f ? left : (right < 0.0f ? right : 0.0f);
+    const float y = fma((float)s->y + 0.5f, down, -fovea->y);
+    const float kept = reach + 1.0f;
+    return fma(x, x, y * y) > kept * kept;
+}
+
 /* Places of the picture around which all pixels lay in the disk. */
 MACULA_ALWAYS_INLINE Mask was_gathered(global const Fovea* fovea, Real x, Real y, float across,
                                        float down) {

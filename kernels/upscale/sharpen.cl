@@ -30,6 +30,8 @@ kernel void sharpen(global const FrameParams* restrict frame, uint target_width,
     const float down = m_divide((float)frame->height, (float)s.height);
     Real part = splat(1.0f);
     if (beyond == MACULA_BEYOND_SMOOTH) {
+        if (is_far_from_gaze(fovea, &s, across, down, fovea->radius))
+            return;
         part = part_of_disk(fovea, distance_in_picture(fovea, &s, across, down));
         if (!any_lane(part > splat(0.0f)))
             return;

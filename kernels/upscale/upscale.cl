@@ -92,9 +92,9 @@ static inline Place find_place(global const float* followed, uint pixels, const 
     return p;
 }
 
-/* Within the disk, and so far around it that what is in it finds neighbours. */
-static inline Mask in_disk(global const Fovea* fovea, Real distance) {
-    return distance < splat(fovea->radius + 2.0f);
+/* From the gaze: the disk, and so far around it that what is in it finds neighbours. */
+static inline float disk_reach(global const Fovea* fovea) {
+    return fovea->radius + 2.0f;
 }
 
 /* One work-item a strip of the picture. planes: of what is rendered. upscaled: four planes of the
@@ -113,6 +113,9 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     const uint pixels = frame->width * frame->height, all = target_width * target_height;
     const float across = m_divide((float)width, (float)s.width);
     const float down = m_divide((float)height, (float)s.height);
+    if (beyond == MACULA_BEYOND_SMOOTH &&
+        is_far_from_gaze(fovea, &s, across, down, disk_reach(fovea)))
+        return;
     const float ratio_x = m_divide((float)s.width, (float)width);
     const float ratio_y = m_divide((float)s.height, (float)height);
     const Real one = splat(1.0f), zero = splat(0.0f);
@@ -123,7 +126,7 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
         const Real distance = distance_in_picture(fovea, &s, across, down);
         share = part_of_disk(fovea, distance);
         if (beyond == MACULA_BEYOND_SMOOTH)
-            gathered = gathered & in_disk(fovea, distance);
+            gathered = gathered & (distance < splat(disk_reach(fovea)));
     }
     if (!any_lane(gathered))
         return;

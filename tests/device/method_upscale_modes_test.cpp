@@ -64,6 +64,50 @@ TEST_P(EachMode, UncoveredPixelsNeverShowHistory) {
     }
 }
 
+// Not by its colour, which clipping may put right, but by the motion: what the board hid has none.
+TEST_P(EachMode, UncoveredPixelsAreNotFollowed) {
+    const scene::Scene scene = board_and_wall();
+    WeierSetup setup = whole_disk(GetParam());
+    setup.width = 150;
+    setup.height = 120;
+    setup.temporal.ratio = 1.0f;
+    setup.outputs = {"followed motion"};
+    WeierFrames frames(device(), scene, setup);
+    std::vector<bool> board, before;
+    int uncovered = 0, kept = 0, followed = 0;
+    for (std::uint32_t frame = 0; frame < 6; ++frame) {
+        const float eye = frame % 2 == 0 ? -0.2f : 0.2f;
+        frames.run(frame, moved(scene, {eye, 0, 0}));
+        const auto motion = frames.read<float>("followed motion");
+        before.swap(board);
+        board.clear();
+        for (const Float4& c : frames.read<Float4>("colour"))
+            board.push_back(c.x > 0.0f);
+        // The wall is 20 away, 120 pixels are seen at an angle of 70 degrees.
+        const float apart = frame % 2 == 0 ? -0.4f : 0.4f;
+        const float shift = apart * 60.0f / (20.0f * std::tan(35.0f * 0.0174533f));
+        for (int y = 2; frame > 0 && y < 118; ++y)
+            for (int x = 2; x < 148; ++x) {
+                const auto near = [&](const std::vector<bool>& all, int at, bool wanted) {
+                    bool same = at >= 1 && at < 149;
+                    for (int i = -1; same && i <= 1; ++i)
+                        for (int j = -1; j <= 1; ++j)
+                            same = same && all[std::size_t((y + j) * 150 + at + i)] == wanted;
+                    return same;
+                };
+                const bool is_kept = std::abs(motion[std::size_t(y * 150 + x)]) < 100.0f;
+                followed += is_kept ? 1 : 0;
+                const bool hidden =
+                    near(board, x, false) && near(before, x + int(std::lround(shift)), true);
+                uncovered += hidden ? 1 : 0;
+                kept += hidden && is_kept ? 1 : 0;
+            }
+    }
+    EXPECT_GT(uncovered, 200);
+    EXPECT_EQ(kept, 0);
+    EXPECT_GT(followed, 3 * 150 * 120);
+}
+
 TEST_P(EachMode, WhatMovesLeavesNoTrail) {
     const scene::Scene scene = board_and_wall();
     WeierSetup setup = whole_disk(GetParam());
@@ -84,6 +128,31 @@ TEST_P(EachMode, WhatMovesLeavesNoTrail) {
                                180, 3),
                   0u)
             << "frame " << frame;
+    }
+}
+
+TEST(BeyondTheDisk, AnEdgeThatMovesStaysWhereItIs) {
+    const scene::Scene scene = board_and_wall();
+    for (const char* method : {"logpolar+taa", "logrect+taa"}) {
+        WeierSetup setup = of_method(method);
+        setup.width = 220;
+        setup.height = 180;
+        setup.log_polar.disk = 0.05f;
+        WeierFrames ours(device(), scene, setup);
+        setup.method = "full";
+        WeierFrames full(device(), scene, setup);
+        double smoothed = 0.0, single = 0.0;
+        for (std::uint32_t frame = 0; frame < 16; ++frame) {
+            const scene::Camera view = moved(scene, {0.05f * float(frame), 0.0f, 0.0f});
+            ours.run(frame, view);
+            full.run(frame, view);
+            if (frame < 8)
+                continue;
+            const Picture truth = full.read<Float4>("colour");
+            smoothed += mean_error(ours.read<Float4>("stable colour"), truth);
+            single += mean_error(ours.read<Float4>("colour"), truth);
+        }
+        EXPECT_LT(smoothed, 0.95 * single) << method;
     }
 }
 

@@ -1,5 +1,7 @@
 // `macula render` as a program: what a scene file asks for, what the command line overrides.
+#include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +15,7 @@ namespace macula::scene {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class RenderProgram : public SceneFolder {
   protected:
@@ -80,6 +83,40 @@ TEST_F(RenderProgram, WarpsForTheLensOfTheDisplay) {
     EXPECT_THAT(render("--distort --display dk2 --size 40x30").text,
                 HasSubstr("--distort: no distortion is known of the display \"dk2\""));
     EXPECT_THAT(render("--distort --display none").text, HasSubstr("--distort"));
+}
+
+// An interrupted run that goes on gives the pictures of one that was not, histories included.
+TEST_F(RenderProgram, ResumedFramesAreThoseOfOneRun) {
+    write("s.toml", "procedural = 'cornell_spheres'\n");
+    for (const char* method : {"logpolar+taa+upscale", "weier", "full"}) {
+        const std::string all = std::string("--size 40x30 --method ") + method + " --frames ";
+        const test::Ended whole = render(all + "0:6 --hash");
+        ASSERT_EQ(whole.code, 0) << whole.text;
+        for (const int frame : {1, 3, 4, 5})
+            std::filesystem::remove(path("out/frame_000" + std::to_string(frame) + ".png"));
+        const test::Ended resumed = render(all + "0:6 --hash --resume");
+        ASSERT_EQ(resumed.code, 0) << resumed.text;
+        std::vector<std::string> first, second;
+        std::istringstream a(whole.text), b(resumed.text);
+        for (std::string line; std::getline(a, line);)
+            if (line.starts_with("hash"))
+                first.push_back(line);
+        for (std::string line; std::getline(b, line);)
+            if (line.starts_with("hash"))
+                second.push_back(line);
+        ASSERT_EQ(first.size(), 6u);
+        EXPECT_EQ(second, (std::vector{first[1], first[3], first[4], first[5]})) << method;
+        EXPECT_EQ(render(all + "0:6 --hash --resume").text.find("hash"), std::string::npos);
+        std::filesystem::remove_all(path("out"));
+    }
+}
+
+TEST_F(RenderProgram, AnImageThatTheMethodLacksIsAnErrorThatNamesThoseItHas) {
+    write("s.toml", "procedural = 'cornell'\n");
+    const test::Ended ended = render("--size 16x16 --method weier --aov depth");
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_THAT(ended.text, HasSubstr("method weier has no image \"depth\"; it has colour, "));
+    EXPECT_THAT(ended.text, Not(HasSubstr("ray count")));
 }
 
 TEST_F(RenderProgram, NamesTheOptionThatIsWrong) {

@@ -150,6 +150,24 @@ TEST_P(BeyondTheDisk, EdgesOfWhatStandsStillKeepTheirHistory) {
     EXPECT_LT(double(lost), 0.005 * double(all));
 }
 
+TEST_P(BeyondTheDisk, WhatMovesHasTheSameBitsInOneAndSixteenLanes) {
+    const scene::Scene scene = scene::load("whitted_moving");
+    std::vector<std::string> hashes;
+    for (const std::uint32_t lanes : {1u, 16u}) {
+        render::Options options;
+        options.width = 150;
+        options.height = 90;
+        options.method = GetParam();
+        options.lanes = lanes;
+        options.log_polar.alpha = 1.5f;
+        render::Renderer renderer(device(), scene, options);
+        for (std::uint32_t frame = 30; frame < 34; ++frame)
+            renderer.render(frame);
+        hashes.push_back(renderer.hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, BeyondTheDisk,
                          testing::Values("logpolar+taa", "logpolar+taa+upscale", "logrect+taa"),
                          [](const auto& mode) {

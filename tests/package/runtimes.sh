@@ -71,6 +71,27 @@ for scene in cornell whitted tunnel_maps; do
   done
 done
 
+# Many levels of rays behind blended layers, more of them than are kept, and the thesis's levels of
+# detail, several samples a texel, enlarged.
+cat >"$scratch/panes.toml" <<'TOML'
+procedural = "cornell_spheres"
+[[material]]
+name = "mirror"
+alpha_mode = "blend"
+opacity = 0.4
+TOML
+deep=("$scratch/panes.toml" --size 96x64 --frames 0:2 --depth 5 --layers 2 --spp 4 --lights soft
+  --device 0)
+for method in full "logpolar+taa+upscale --lod thesis"; do
+  read -ra arguments <<<"$method"
+  expected=$(hashes POCL_DEVICES=pthread -- "${deep[@]}" --method "${arguments[@]}")
+  for runtime in "${runtimes[@]}"; do
+    read -ra environment <<<"${runtime#*|}"
+    compare "layers and rays by $method on ${runtime%%|*}" "$expected" \
+      "$(hashes "${environment[@]}" -- "${deep[@]}" --method "${arguments[@]}")"
+  done
+done
+
 # Three frames of a moving view: the second and third read what the ones before left.
 while read -r method _; do
   moving=(atrium --size 96x64 --frames 300:303 --lights area --method "$method" --device 0)
