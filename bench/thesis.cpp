@@ -38,6 +38,8 @@ auto key(const ThesisRow& r) {
 void check(const ThesisOptions& o) {
     if (o.frames < 1 || o.frames > 100000)
         throw std::invalid_argument("--frames must lie between 1 and 100000");
+    if (o.warm_up > 100000 || o.orbit > 100000)
+        throw std::invalid_argument("--warm-up and --orbit must be at most 100000");
     if (o.orbit == 1)
         throw std::invalid_argument("--orbit: one frame does not move; 0 leaves the motion out");
     if (o.reference_spp < 1 || o.orbit_spp < 1)

@@ -132,12 +132,13 @@ kernel void summarise_texels(global const LogPolarParams* restrict params,
 }
 
 /* Where surfaces meet, this much nearer or farther is another one. */
-#define OTHER_SURFACE 1.25f
+#define OTHER_SURFACE_BEFORE 0.8f
+#define OTHER_SURFACE_BEHIND 1.25f
 
-/* Between two by two texels, of those that show the surface of the nearest one; those without
- * motion count nothing, and none at all: no motion. */
+/* Between two by two texels, of those that show a surface at that depth; those without motion count
+ * nothing, and none at all: no motion. */
 static inline Lane4 motion_at(global const LogPolarParams* params, global const float4* motions,
-                              const Place* p) {
+                              const Place* p, Real depth) {
     const Real left = floor(p->column), top = floor(p->row);
     const Real to_x = p->column - left, to_y = p->row - top;
     const Int column = to_int(left), row = to_int(top);
@@ -145,22 +146,15 @@ static inline Lane4 motion_at(global const LogPolarParams* params, global const 
     const Real one = splat(1.0f), zero = splat(0.0f);
     const Real weights[4] = {(one - to_x) * (one - to_y), to_x * (one - to_y), (one - to_x) * to_y,
                              to_x * to_y};
-    Lane4 texels[4];
-    Real depth = zero, most = zero;
-    for (int k = 0; k < 4; ++k) {
-        texels[k] =
-            gather4(motions, texel_at(params, (k & 1) == 0 ? column : right, row + (k >> 1)));
-        const Mask nearer = (texels[k].w > zero) & (weights[k] > most);
-        depth = nearer ? texels[k].w : depth;
-        most = nearer ? weights[k] : most;
-    }
-    const Real closest = depth * splat(m_divide(1.0f, OTHER_SURFACE));
-    const Real farthest = depth * splat(OTHER_SURFACE);
+    const Real closest = depth * splat(OTHER_SURFACE_BEFORE);
+    const Real farthest = depth * splat(OTHER_SURFACE_BEHIND);
     Lane4 sum = {splat_vector(splat3(0.0f)), zero};
     for (int k = 0; k < 4; ++k) {
-        const Mask same = (texels[k].w > closest) & (texels[k].w < farthest);
+        const Lane4 texel =
+            gather4(motions, texel_at(params, (k & 1) == 0 ? column : right, row + (k >> 1)));
+        const Mask same = (texel.w > closest) & (texel.w < farthest);
         const Real weight = same ? weights[k] : zero;
-        sum.xyz = scale_add3(texels[k].xyz, weight, sum.xyz);
+        sum.xyz = scale_add3(texel.xyz, weight, sum.xyz);
         sum.w = sum.w + weight;
     }
     const Mask known = sum.w > splat(1e-3f);
@@ -181,8 +175,8 @@ typedef struct Shown {
 static inline Shown show_texels(global const LogPolarParams* params, global const float4* ranges,
                                 global const float4* motions, const Place* p) {
     const Uint nearest = texel_at(params, to_int(rint(p->column)), to_int(rint(p->row)));
-    const Lane4 motion = motion_at(params, motions, p);
     const Lane4 range = gather4(ranges, nearest);
+    const Lane4 motion = motion_at(params, motions, p, range.xyz.x);
     const Depths depths = {range.xyz.x, range.xyz.y}, kept = {range.xyz.x, range.w};
     const Shown shown = {motion.xyz.x, motion.xyz.y, depths, kept, range.xyz.z, motion.xyz.z};
     return shown;

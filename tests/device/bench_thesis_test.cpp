@@ -134,6 +134,15 @@ TEST(BenchThesis, EquationFiveOneByHand) {
     EXPECT_DOUBLE_EQ(predicted_samples(192, 108, 1.0, 4.0, 1.0), 192.0 * 108.0);
 }
 
+TEST(BenchThesis, FramesThatNobodyCouldWaitForAreRefused) {
+    ThesisOptions options = small();
+    options.warm_up = 0xffffffffu; // with the measured ones it would wrap around
+    EXPECT_THROW(run_thesis(options, {}), std::invalid_argument);
+    options = small();
+    options.orbit = 100001;
+    EXPECT_THROW(run_thesis(options, {}), std::invalid_argument);
+}
+
 TEST(BenchThesis, UnknownNamesAreRefusedWithTheKnownOnes) {
     try {
         find_thesis_views({"sponza basement"});
