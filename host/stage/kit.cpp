@@ -65,6 +65,11 @@ compute::Range Kit::lane_group() const {
     return {kGroup / lanes};
 }
 
+compute::Range Kit::strips(std::uint32_t of_width, std::uint32_t of_height) const {
+    const std::uint64_t across = (of_width + lanes - 1) / lanes;
+    return {compute::Range::cover(across * of_height, kStripGroup)};
+}
+
 std::uint32_t lanes_for(const compute::Device& device) {
     return device.facts().type == compute::DeviceType::cpu ? 16 : 1;
 }

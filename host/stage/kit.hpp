@@ -71,6 +71,8 @@ struct Kit {
     compute::Kernel lane_kernel(const char* program, const char* entry) const;
     compute::Range lane_items(std::uint32_t count) const { return {count / lanes}; }
     compute::Range lane_group() const;
+    // A launch over the strips of an image, whose lanes are neighbours in a row (lib/strip.h).
+    compute::Range strips(std::uint32_t of_width, std::uint32_t of_height) const;
 };
 
 // The lanes that suit a device: CPUs run sixteen of them in one work-item faster than as sixteen.
@@ -78,6 +80,9 @@ std::uint32_t lanes_for(const compute::Device& device);
 
 // Slots of a group of all shading kernels: slots and batches are multiples of it.
 inline constexpr std::size_t kGroup = 64;
+// Strips of a group, also of several lanes each: those that have nothing to do return at once, and
+// starting a group for four of them takes longer than they do.
+inline constexpr std::size_t kStripGroup = 64;
 
 // A resource with one entry for each ray slot, or for each pixel.
 frame::Resource per_slot(const Kit& kit, const std::string& name, std::uint32_t element_bytes);

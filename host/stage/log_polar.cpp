@@ -218,7 +218,7 @@ frame::Stage remap_log_polar(const LogPolarKit& kit) {
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"], texels,
                      run["colour"])
-                .launch(name, kit.kit.lane_items(kit.kit.slots()), kit.kit.lane_group());
+                .launch(name, kit.kit.strips(kit.kit.width, kit.kit.height), {kStripGroup});
         };
     };
     return stage;

@@ -47,8 +47,9 @@ class LogPolarBuffer {
     void prepare(const Kit& kit);
 
     const shared::LogPolarParams& params() const { return params_; }
-    // With the empty texels at the ends of its rows.
-    std::uint64_t texels() const { return std::uint64_t{params_.pitch} * params_.height; }
+    // With the empty texels at the ends of its rows, and two behind the last: four are read
+    // at once.
+    std::uint64_t texels() const { return std::uint64_t{params_.pitch} * params_.height + 2; }
 
     compute::Buffer params_buffer;
 

@@ -8,18 +8,8 @@
 namespace macula::stage {
 namespace {
 
-// Work-items of a group, also of several lanes each: strips that have nothing to do return at once,
-// and starting a group for four of them takes longer than they do.
-constexpr std::size_t kStripGroup = 64;
-
-// Strips of an image, one a work-item.
-compute::Range strips(const Kit& kit, std::uint32_t width, std::uint32_t height) {
-    const std::uint64_t across = (width + kit.lanes - 1) / kit.lanes;
-    return {compute::Range::cover(across * height, kStripGroup)};
-}
-
 compute::Range rendered_strips(const Kit& kit) {
-    return strips(kit, kit.width, kit.height);
+    return kit.strips(kit.width, kit.height);
 }
 
 frame::Resource planes(const Kit& kit, const std::string& name, std::uint32_t count) {
@@ -98,7 +88,7 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels", strips(kit.kit, p.width, p.height),
+                .launch("summarise texels", kit.kit.strips(p.width, p.height),
                         kit.kit.lane_group());
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
@@ -190,9 +180,9 @@ frame::Stage upscale(const TemporalKit& kit) {
         // What is as large as before needs no sharpening.
         const float ratio = static_cast<float>(width) / static_cast<float>(kit.kit.width);
         const float strength = kit.sharpness * std::min(ratio - 1.0f, 1.0f);
-        const compute::Range range = strips(kit.kit, width, height);
+        const compute::Range range = kit.kit.strips(width, height);
         const compute::Range blocks =
-            strips(kit.kit, width, (height + MACULA_ENLARGED_ROWS - 1) / MACULA_ENLARGED_ROWS);
+            kit.kit.strips(width, (height + MACULA_ENLARGED_ROWS - 1) / MACULA_ENLARGED_ROWS);
         return [=](frame::Run& run) mutable {
             const compute::Buffer none;
             const compute::Buffer& colours = run[upscaled_from(kit)];

@@ -14,6 +14,9 @@ MACULA_ALWAYS_INLINE Real log_polar_column(MACULA_GLOBAL const LogPolarParams* p
                                            MACULA_GLOBAL const Fovea* fovea, Real distance) {
     const Real part = m_log2(distance + 1.0f) * fovea->inverse_log_far;
     const Real kept = clamped(part, splat(0.0f), splat(1.0f));
+    /* Of the thesis's alpha roots are enough. */
+    if (p->inverse_alpha == 0.25f)
+        return m_sqrt(m_sqrt(kept)) * (float)p->width;
     return m_pow(kept, splat(p->inverse_alpha)) * (float)p->width;
 }
 

@@ -102,12 +102,18 @@ MACULA_ALWAYS_INLINE Lane4 colours_at(global const float4* image, const Strip* s
     return gather4(row, int_to_uint(clamp(x + strip_lanes(), (Int)(0), (Int)(s->width - 1))));
 }
 
-MACULA_ALWAYS_INLINE void store_colours(global float4* image, const Strip* s, Real3 colour) {
+/* `weight`: the fourth float. */
+MACULA_ALWAYS_INLINE void store_weighed(global float4* image, const Strip* s, Real3 colour,
+                                        Real weight) {
     global float4* row = image + s->y * s->width;
     if (is_whole(s, s->x))
-        store4(row, (uint)s->x, colour, splat(1.0f));
+        store4(row, (uint)s->x, colour, weight);
     else
-        scatter4(row, int_to_uint(strip_columns(s)), strip_inside(s), colour, splat(1.0f));
+        scatter4(row, int_to_uint(strip_columns(s)), strip_inside(s), colour, weight);
+}
+
+MACULA_ALWAYS_INLINE void store_colours(global float4* image, const Strip* s, Real3 colour) {
+    store_weighed(image, s, colour, splat(1.0f));
 }
 
 MACULA_ALWAYS_INLINE Real luminance_of(Real3 c) {

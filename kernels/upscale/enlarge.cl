@@ -1,5 +1,6 @@
 /* The picture of what is smooth already and coarser than a pixel: enlarged in space, by a quadratic
- * that keeps the samples themselves (Dodgson 1997). */
+ * that keeps the samples themselves (Dodgson 1997), within what they span: nothing is darker beside
+ * a lamp. */
 #include "lib/camera.h"
 #include "shared/planes.h"
 #include "upscale/current.h"
@@ -38,9 +39,13 @@ MACULA_ALWAYS_INLINE Columns columns_of(const Source* s) {
     return c;
 }
 
+MACULA_ALWAYS_INLINE Real within(Real value, Real a, Real b, Real c) {
+    return clamped(value, m_min(m_min(a, b), c), m_max(m_max(a, b), c));
+}
+
 MACULA_ALWAYS_INLINE Real weighed(const Columns* c, Real before, Real middle, Real after) {
     const Real outer = fma(c->weights.w[1], middle, c->weights.w[2] * after);
-    return fma(c->weights.w[0], before, outer);
+    return within(fma(c->weights.w[0], before, outer), before, middle, after);
 }
 
 #if MACULA_LANES == 16
@@ -103,7 +108,9 @@ kernel void enlarge(global const FrameParams* restrict frame, uint target_width,
         const Weights3 rows = quadratic_weights(splat(y - nearest));
         const Real3 outer = scale_add3(middle, rows.w[1], scale3(below, rows.w[2]));
         const Real3 sum = scale_add3(above, rows.w[0], outer);
-        const Real3 kept = make3(m_max(sum.x, zero), m_max(sum.y, zero), m_max(sum.z, zero));
+        const Real3 kept = make3(within(sum.x, above.x, middle.x, below.x),
+                                 within(sum.y, above.y, middle.y, below.y),
+                                 within(sum.z, above.z, middle.z, below.z));
         store_colours(picture, &s, kept);
     }
 }

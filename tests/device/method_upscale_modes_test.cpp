@@ -156,6 +156,21 @@ TEST(BeyondTheDisk, AnEdgeThatMovesStaysWhereItIs) {
     }
 }
 
+TEST(BeyondTheDisk, NothingIsDarkerBesideALamp) {
+    scene::Scene scene = board_and_wall();
+    scene.materials[0].emission = glm::vec3(0.3f);
+    scene.materials[1].emission = glm::vec3(20.0f);
+    WeierSetup setup = of_method("logpolar+taa+upscale");
+    setup.log_polar.disk = 0.01f;
+    WeierFrames frames(device(), scene, setup);
+    for (std::uint32_t frame = 0; frame < 20; ++frame)
+        frames.run(frame, scene.cameras.front());
+    float least = 1.0f;
+    for (const Float4& pixel : frames.read<Float4>(frames.picture()))
+        least = std::min(least, pixel.x);
+    EXPECT_GT(least, 0.299f);
+}
+
 // A box whose front is red and whose right side is blue, before a black wall.
 scene::Scene two_sided_box() {
     scene::Mesh wall, box;
