@@ -10,7 +10,12 @@
 
 #define LEAST_BIAS 0.1f   /* of the retention bias, section 4.4 */
 #define MOST_WORTH 255.0f /* samples that a colour can be worth */
-#define LEAST_WORTH 1e-4f  /* and one sample */
+#define LEAST_NEARNESS 0.01f
+/* Beyond the disk, of the nearest sample while things move. There samples count by the root of how
+ * near they are: where a history is short, unequal shares show as the teeth of a comb. At rest,
+ * where many come, the nearest make a sharper mean. */
+#define MOVING_WORTH 0.6f
+#define NINTH 0x1.c71c72p-4f
 /* Deviations of the samples that a pixel is made of, or of those around it, that are no change. */
 #define SPREAD_REACH 2.0f
 
@@ -30,7 +35,7 @@ static inline bool stands_still(global const FrameParams* frame) {
     return same;
 }
 
-/* Three by three colours; `light`: their mean luminance. */
+/* Three by three colours; `light`: the sum of their luminance. */
 static inline Neighbours find_neighbours(global const float4* colour, const Strip* s, Real* light) {
     Neighbours n = no_neighbours();
     Real sum = splat(0.0f);
@@ -40,7 +45,7 @@ static inline Neighbours find_neighbours(global const float4* colour, const Stri
         add_neighbour(&n, c);
     }
     weigh_nine(&n);
-    *light = sum * splat(0x1.c71c72p-4f);
+    *light = sum;
     return n;
 }
 
@@ -77,7 +82,7 @@ static inline Real retention_bias(global const FrameParams* frame, Real change, 
     const float pace = m_divide(60.0f, frame_rate);
     const Real speed = m_sqrt(m_sqrt(motion * splat(m_divide(1.0f, diagonal)))) * splat(pace);
     const Real least = clamped(change, splat(LEAST_BIAS), splat(1.0f)), rest = splat(1.0f) - least;
-    return least + clamped(rest * speed, splat(0.0f), rest);
+    return fma(rest, clamped(speed, splat(0.0f), splat(1.0f)), least);
 }
 
 /* What a history may be worth for a sample of 1 to have the share `bias`. */
@@ -86,8 +91,7 @@ static inline Real most_worth(Real bias) {
     return m_divide(splat(1.0f) - share, share);
 }
 
-/* One work-item a strip. colour: alpha says how near a sample lies to the pixel, 0..1, and thus
- * what it is worth: the nearer ones make a sharper mean, at rest, where many come, the nearest.
+/* One work-item a strip. colour: alpha says how near a sample lies to the pixel, 0..1.
  * stable: four planes, colour and worth; colour_out may be null. `fovea`: null, or the disk within
  * which nothing is smoothed. spreads: the deviation of the luminance of the samples that a pixel is
  * made of. */
@@ -109,7 +113,8 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
     const Mask wanted = strip_inside(&s) & (fabs(motion_x) < splat(MACULA_NO_MOTION)) &
                         (disk < one);
     Real3 result = now;
-    Real worth = pixel.w;
+    const Real near = m_max(pixel.w, splat(LEAST_NEARNESS));
+    Real worth = near;
     if (any_lane(wanted)) {
         const Footprint f = footprint_at(strip_middles(&s) + motion_x,
                                          ((float)s.y + 0.5f) + motion_y, wanted, s.width,
@@ -118,7 +123,7 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         const Real spread = plane_at(spreads, &s, 0, 0);
         Real light;
         const Neighbours around = find_neighbours(colour, &s, &light);
-        const Real apart = fabs(light - luminance_of(past.mean));
+        const Real apart = fabs(fma(light, splat(NINTH), -luminance_of(past.mean)));
         const Real motion = m_sqrt(fma(motion_x, motion_x, motion_y * motion_y));
         const Mask still = (motion < splat(0x1p-9f)) & splat_mask(stands_still(frame));
         const Real3 history = rectified(&around, past.colour, still ? splat(STILL_REACH)
@@ -128,14 +133,18 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         const Real change = m_max(apart - noise, splat(0.0f));
         Real bias = retention_bias(frame, change, motion, frame_rate);
         bias = still ? change : bias;
-        const Real sample = m_max(still ? pixel.w * pixel.w : pixel.w, splat(LEAST_WORTH));
-        const Real kept = m_min(past.worth, most_worth(bias)), sum = kept + sample;
+        const Real kept = m_min(past.worth, most_worth(bias));
+        /* In the disk each pixel is sampled: near is 1. */
+        const Mask by_square = still | (near >= one);
+        const Real scale = by_square ? near : splat(MOVING_WORTH);
+        const Real amount = by_square ? near : m_sqrt(near);
+        const Real sample = scale * amount, sum = fma(scale, amount, kept);
         /* The disk's own samples, towards its middle. */
         const Real part = m_divide(sample, sum);
         bias = fma(one - part, disk, part);
         const Mask mixed = wanted & (past.worth > splat(0.0f)) & (bias < one);
         result = select3(mixed, lerp3(history, now, bias), now);
-        worth = mixed ? m_min(sum, splat(MOST_WORTH)) : sample;
+        worth = mixed ? m_min(sum, splat(MOST_WORTH)) : near;
     }
     store_plane(stable, &s, result.x);
     store_plane(stable + pixels, &s, result.y);

@@ -235,16 +235,27 @@ Between between(std::uint32_t pixel, std::uint32_t to, std::uint32_t from) {
             {at > nearest ? before : after, 1.0 - 2.0 * t * t, at > nearest ? after : before}};
 }
 
-// Dodgson's quadratic between the three by three samples around a pixel.
+// Dodgson's quadratic between three values, within what they span.
+double quadratic(const Between& place, const double (&values)[3]) {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k)
+        sum += place.weights[k] * values[k];
+    const auto [least, most] = std::minmax({values[0], values[1], values[2]});
+    return std::clamp(sum, least, most);
+}
+
+// Along the rows of the three by three samples around a pixel, then between these.
 double quadratic(const Picture& samples, int width, int height, const Between& across,
                  const Between& down) {
-    double sum = 0.0;
-    for (int k = 0; k < 9; ++k) {
-        const int x = std::clamp(across.nearest + k % 3 - 1, 0, width - 1);
-        const int y = std::clamp(down.nearest + k / 3 - 1, 0, height - 1);
-        sum += across.weights[k % 3] * down.weights[k / 3] * samples[y * width + x].y;
+    double rows[3];
+    for (int j = 0; j < 3; ++j) {
+        const int y = std::clamp(down.nearest + j - 1, 0, height - 1);
+        double row[3];
+        for (int i = 0; i < 3; ++i)
+            row[i] = samples[y * width + std::clamp(across.nearest + i - 1, 0, width - 1)].y;
+        rows[j] = quadratic(across, row);
     }
-    return std::max(sum, 0.0);
+    return quadratic(down, rows);
 }
 
 TEST(Upscale, BeyondTheDiskThePictureIsAQuadraticBetweenItsSamples) {
