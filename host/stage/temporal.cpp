@@ -88,14 +88,13 @@ frame::Stage remap_surfaces(const LogPolarKit& kit) {
                 .set(kit.buffer->params_buffer, run["fovea"], run["log-polar colour"],
                      run["log-polar surface"], run.scratch("texel ranges"),
                      run.scratch("texel motions"))
-                .launch("summarise texels", kit.kit.strips(p.width, p.height),
-                        kit.kit.lane_group());
+                .launch("summarise texels", kit.kit.strips(p.width, p.height), {kStripGroup});
             remap
                 .set(run.params_buffer(), kit.buffer->params_buffer, run["fovea"],
                      run.scratch("texel ranges"), run.scratch("texel motions"),
                      run["sampled surfaces"], run.last("depth range"), run["depth range"],
                      run["followed motion"], run["sample spread"])
-                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch(name, rendered_strips(kit.kit), {kStripGroup});
         };
     };
     return stage;
@@ -114,7 +113,7 @@ frame::Stage follow_surfaces(const TemporalKit& kit) {
             kernel
                 .set(run.params_buffer(), run["surface planes"], run.last("depth range"),
                      run["depth range"], run["followed motion"])
-                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch(name, rendered_strips(kit.kit), {kStripGroup});
         };
     };
     return stage;
@@ -135,7 +134,7 @@ frame::Stage antialias(const TemporalKit& kit) {
                 .set(run.params_buffer(), kit.frame_rate, kit.upscaled ? run["fovea"] : none,
                      run["colour"], run["sample spread"], run["followed motion"],
                      run.last("stable planes"), run["stable planes"], run["stable colour"])
-                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch(name, rendered_strips(kit.kit), {kStripGroup});
         };
     };
     return stage;
@@ -150,7 +149,7 @@ frame::Stage split_colour(const TemporalKit& kit) {
         auto kernel = kit.kit.lane_kernel("upscale/antialias", "split_colour");
         return [=](frame::Run& run) mutable {
             kernel.set(kit.kit.width, kit.kit.height, run["colour"], run["colour planes"])
-                .launch(name, rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch(name, rendered_strips(kit.kit), {kStripGroup});
         };
     };
     return stage;
@@ -191,7 +190,7 @@ frame::Stage upscale(const TemporalKit& kit) {
             find_thin
                 .set(kit.kit.width, kit.kit.height, width, height, disk_alone ? fovea : none,
                      colours, run["followed motion"], run.scratch("thin features"))
-                .launch("upscale: thin features", rendered_strips(kit.kit), kit.kit.lane_group());
+                .launch("upscale: thin features", rendered_strips(kit.kit), {kStripGroup});
             upscale
                 .set(run.params_buffer(), width, height, beyond_disk(kit), fovea,
                      kit.foveated ? run.last("fovea") : none, colours,
