@@ -231,9 +231,7 @@ int render_frames(app::RenderOptions options) {
         if (done && !needs_all && is_there(frame + 1))
             continue;
         const auto reports = render_eyes(eyes, views, frame, devices.size() > 1);
-        if (done)
-            continue;
-        for (std::size_t i = 0; i < eyes.size(); ++i)
+        for (std::size_t i = 0; i < eyes.size() && !done; ++i)
             deliver(options, eyes[i], reports[i], json);
         progress.show(reports.front());
     }

@@ -40,7 +40,7 @@ struct Options {
     TemporalOptions temporal;
     stage::RingOptions rings;
     stage::RrmOptions rrm;
-    bool smoothed = false; // Method::make() says so to base(): antialias() follows
+    bool smoothed = false; // Method::make() says so to base(): samples are gathered over frames
 };
 
 struct Method {

@@ -54,7 +54,7 @@ const char* Method::picture() const {
 
 frame::Graph Method::make(const stage::Kit& kit, const Options& options) const {
     Options own = options;
-    own.smoothed = antialiased;
+    own.smoothed = antialiased || upscaled;
     frame::Graph graph = base(kit, own);
     graph.rename(name, purpose);
     if (!antialiased && !upscaled)

@@ -63,7 +63,8 @@ struct LogPolarKit {
     // The buffer is log-rectilinear (Li et al. 2021): columns and rows are the image's, each warped
     // around the gaze.
     bool rectangular = false;
-    // antialias() follows, which knows what to make of a colour's alpha: see remap_log_polar().
+    // antialias() or upscale() follows, which know what to make of a colour's alpha: see
+    // remap_log_polar().
     bool smoothed = false;
 
     std::uint32_t disk_packets() const; // of 4 x 4 pixels

@@ -144,11 +144,13 @@ frame::Stage split_colour(const TemporalKit& kit) {
     frame::Stage stage;
     stage.name = "split colour";
     stage.reads = {"colour"};
-    stage.writes = {planes(kit.kit, "colour planes", 3)};
+    stage.writes = {planes(kit.kit, "colour planes", kit.foveated ? 4 : 3)};
     stage.prepare = [kit, name = stage.name] {
         auto kernel = kit.kit.lane_kernel("upscale/antialias", "split_colour");
         return [=](frame::Run& run) mutable {
-            kernel.set(kit.kit.width, kit.kit.height, run["colour"], run["colour planes"])
+            kernel
+                .set(kit.kit.width, kit.kit.height, kit.foveated ? 1u : 0u, run["colour"],
+                     run["colour planes"])
                 .launch(name, rendered_strips(kit.kit), {kStripGroup});
         };
     };

@@ -58,7 +58,7 @@ kernel void remap_log_polar(global const FrameParams* restrict frame,
     const Real x = strip_middles(&s) - splat(fovea->x);
     const Real y = splat(((float)s.y + 0.5f) - fovea->y);
     const Real distance = m_sqrt(fma(x, x, y * y));
-    const Mask wanted = strip_inside(&s) & (distance > splat(fovea->inner));
+    const Mask wanted = strip_inside(&s) & (distance >= splat(fovea->inner));
     if (!any_lane(wanted))
         return;
     /* Lanes within the disk read the buffer in vain: where it begins. */

@@ -51,7 +51,7 @@ kernel void remap_log_rect(global const FrameParams* restrict frame,
     const Real x = strip_middles(&s), y = splat((float)s.y + 0.5f);
     const Real dx = x - splat(fovea->x), dy = y - splat(fovea->y);
     const Real distance = m_sqrt(fma(dx, dx, dy * dy));
-    const Mask wanted = strip_inside(&s) & (distance > splat(fovea->inner));
+    const Mask wanted = strip_inside(&s) & (distance >= splat(fovea->inner));
     if (!any_lane(wanted))
         return;
     const RectAxis columns = make_rect_axis(fovea->x, frame->width, params->width);

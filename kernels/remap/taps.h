@@ -1,4 +1,4 @@
-/* Weighted sums over a few neighbouring texels, MACULA_TAPS along each axis (at most 4), of a
+/* Weighted sums over a few neighbouring texels, MACULA_TAPS along each axis (2 or 3), of a
  * buffer of four floats a texel. OpenCL C only. */
 #ifndef MACULA_REMAP_TAPS_H
 #define MACULA_REMAP_TAPS_H

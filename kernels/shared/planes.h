@@ -14,12 +14,16 @@
 /* "depth range": what the next frame compares with. */
 #define MACULA_PLANE_LEAST 0u
 #define MACULA_PLANE_MOST 1u
-#define MACULA_PLANE_FACING 2u /* a packed normal, or the negative of normal_set() */
+#define MACULA_PLANE_FACING 2u /* a packed normal, 0: any, or the negative of normal_set() */
 #define MACULA_RANGE_PLANES 3u
 
 /* "stable planes", "upscaled planes": colours, and what they are worth in samples. */
 #define MACULA_PLANE_WORTH 3u
 #define MACULA_COLOUR_PLANES 4u
+
+/* "colour planes" of a foveated method: three of colour, and how near a sample lies to a pixel, of
+ * which it is made, 0..1. */
+#define MACULA_PLANE_NEARNESS 3u
 
 /* "upscaled planes" beside these: luma around and of thin features, where their worth says that
  * there are any. */

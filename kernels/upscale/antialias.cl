@@ -6,18 +6,12 @@
 #include "shared/planes.h"
 #include "shared/surface.h"
 #include "upscale/fovea.h"
+#include "upscale/nearness.h"
 #include "upscale/neighbours.h"
 
 #define LEAST_BIAS 0.1f   /* of the retention bias, section 4.4 */
 #define MOST_WORTH 255.0f /* samples that a colour can be worth */
-#define LEAST_NEARNESS 0.01f
-/* Beyond the disk, of the nearest sample while things move. There samples count by the root of how
- * near they are: where a history is short, unequal shares show as the teeth of a comb. At rest,
- * where many come, the nearest make a sharper mean. */
-#define MOVING_WORTH 0.6f
 #define NINTH 0x1.c71c72p-4f
-/* Deviations of the samples that a pixel is made of, or of those around it, that are no change. */
-#define SPREAD_REACH 2.0f
 
 static inline Real3 finite_or(Real3 v, Real3 otherwise, Mask* is_finite) {
     *is_finite = (fabs(v.x) < splat(1e30f)) & (fabs(v.y) < splat(1e30f)) &
@@ -134,13 +128,10 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         Real bias = retention_bias(frame, change, motion, frame_rate);
         bias = still ? change : bias;
         const Real kept = m_min(past.worth, most_worth(bias));
-        /* In the disk each pixel is sampled: near is 1. */
-        const Mask by_square = still | (near >= one);
-        const Real scale = by_square ? near : splat(MOVING_WORTH);
-        const Real amount = by_square ? near : m_sqrt(near);
-        const Real sample = scale * amount, sum = fma(scale, amount, kept);
+        const Worth sample = worth_of_nearness(near, still);
+        const Real sum = fma(sample.scale, sample.amount, kept);
         /* The disk's own samples, towards its middle. */
-        const Real part = m_divide(sample, sum);
+        const Real part = m_divide(sample.scale * sample.amount, sum);
         bias = fma(one - part, disk, part);
         const Mask mixed = wanted & (past.worth > splat(0.0f)) & (bias < one);
         result = select3(mixed, lerp3(history, now, bias), now);
@@ -154,15 +145,18 @@ kernel void antialias(global const FrameParams* restrict frame, float frame_rate
         store_colours(colour_out, &s, result);
 }
 
-/* Colours as planes, for what reads them so: where nothing is smoothed before. */
-kernel void split_colour(uint width, uint height, global const float4* restrict colour,
-                         global float* restrict planes) {
+/* Colours as planes, for what reads them so: where nothing is smoothed before. `weighed`: 1: alpha
+ * is a fourth one. */
+kernel void split_colour(uint width, uint height, uint weighed,
+                         global const float4* restrict colour, global float* restrict planes) {
     const Strip s = strip_of_item(width, height);
     if (s.y >= s.height)
         return;
     const uint pixels = width * height;
-    const Real3 now = colours_at(colour, &s, 0, 0).xyz;
-    store_plane(planes, &s, now.x);
-    store_plane(planes + pixels, &s, now.y);
-    store_plane(planes + 2u * pixels, &s, now.z);
+    const Lane4 now = colours_at(colour, &s, 0, 0);
+    store_plane(planes, &s, now.xyz.x);
+    store_plane(planes + pixels, &s, now.xyz.y);
+    store_plane(planes + 2u * pixels, &s, now.xyz.z);
+    if (weighed != 0u)
+        store_plane(planes + MACULA_PLANE_NEARNESS * pixels, &s, now.w);
 }

@@ -2,8 +2,8 @@
 #include "upscale/follow.h"
 
 /* One work-item a strip. followed: as store_followed() writes it. range: what the next frame
- * compares with: the pixel's own depth, or the nearest around it, which moves an edge; its normal.
- */
+ * compares with: the nearest depth around a pixel, which moves an edge, and its own, or that behind
+ * a thin thing; its normal, but for that one's. */
 kernel void follow_surfaces(global const FrameParams* restrict frame,
                             global const float* restrict surfaces,
                             global const float* restrict past_range, global float* restrict range,

@@ -17,8 +17,8 @@ MACULA_ALWAYS_INLINE Real distance_to_gaze(global const Fovea* fovea, const Stri
     return distance_in_picture(fovea, s, 1.0f, 1.0f);
 }
 
-/* No pixel of the strip lies within `reach` of the gaze. What is asked
- * first of strips, most of which have nothing to do with the disk. */
+/* No pixel of the strip lies within `reach` of the gaze. What is asked first of strips, most of
+ * which have nothing to do with the disk. */
 MACULA_ALWAYS_INLINE bool is_far_from_gaze(global const Fovea* fovea, const Strip* s, float across,
                                            float down, float reach) {
     const float left = fma((float)s->x, across, -fovea->x);
@@ -29,7 +29,7 @@ MACULA_ALWAYS_INLINE bool is_far_from_gaze(global const Fovea* fovea, const Stri
     return fma(x, x, y * y) > kept * kept;
 }
 
-/* Places of the picture around which all pixels lay in the disk. */
+/* Places of the picture that lay in the disk: pixels around them were gathered, too. */
 MACULA_ALWAYS_INLINE Mask was_gathered(global const Fovea* fovea, Real x, Real y, float across,
                                        float down) {
     const Real dx = fma(x, splat(across), splat(-fovea->x));

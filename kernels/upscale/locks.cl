@@ -60,7 +60,7 @@ kernel void find_thin(uint width, uint height, uint target_width, uint target_he
     const Strip s = strip_of_item(width, height);
     if (s.y >= s.height)
         return;
-    if (fovea && !any_lane(distance_to_gaze(fovea, &s) < splat(fovea->radius + 4.0f)))
+    if (fovea && !any_lane(distance_to_gaze(fovea, &s) < splat(fovea->radius + 5.0f)))
         return;
     const Nine lumas = lumas_of(planes, width * height, &s);
     const Beside beside = beside_middle(&lumas, UNLIKE);

@@ -74,7 +74,12 @@ MACULA_ALWAYS_INLINE Lock find_lock(global const float* picture, uint pixels, co
     Lock lock = {zero, zero, zero, zero};
     Corners lives = corners_at(picture + MACULA_PLANE_WORTH * pixels, f);
     for (uint k = 0u; k < 4u; ++k) {
-        const Mask sound = known & (lives.v[k] > zero) & (lives.v[k] <= splat(MOST_PACKED));
+        Mask sound = known & (lives.v[k] > zero) & (lives.v[k] <= splat(MOST_PACKED));
+        /* Nothing is read from those that the place does not lie towards. */
+        if ((k & 1u) != 0u)
+            sound = sound & (f->to_x > zero);
+        if ((k >> 1) != 0u)
+            sound = sound & (f->to_y > zero);
         lives.v[k] = sound ? life_of(lives.v[k]) : zero;
     }
     const Real upper = m_max(lives.v[0], lives.v[1]), lower = m_max(lives.v[2], lives.v[3]);

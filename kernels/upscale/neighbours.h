@@ -7,6 +7,8 @@
 /* Deviations around the mean that a history may have. */
 #define MOVING_REACH 1.5f
 #define STILL_REACH 4.0f
+/* Deviations of the samples that a pixel is made of, or of those around it, that are no change. */
+#define SPREAD_REACH 2.0f
 
 /* Luma and two differences of colours. */
 MACULA_ALWAYS_INLINE Real3 luma_of(Real3 c) {

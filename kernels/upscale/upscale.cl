@@ -7,6 +7,7 @@
 #include "upscale/current.h"
 #include "upscale/fovea.h"
 #include "upscale/locks.h"
+#include "upscale/nearness.h"
 #include "upscale/neighbours.h"
 
 #define MOVING_WORTH 4.0f /* samples that a colour can be worth while the view moves ... */
@@ -14,6 +15,8 @@
 #define STILL_WORTH 64.0f /* ... and while it stands still */
 /* What the picture is worth that is but interpolated, where no sample lies near. */
 #define GUESS 0.1f
+/* Of a history beside a lock's life in one plane. */
+#define LEAST_WORTH 0x1p-8f
 
 /* What this frame's samples say of a pixel of the picture. */
 typedef struct Current {
@@ -21,12 +24,14 @@ typedef struct Current {
     Real weight;  /* 0..1 */
     Real nearest; /* luma of the nearest sample */
     Mask within;  /* it lies within a pixel */
+    Real trust;   /* what it is worth, at most 1 */
     Real3 smooth; /* between all samples around it */
     Neighbours around;
 } Current;
 
-static inline Current find_current(global const float* planes, uint pixels, const Source* s,
-                                   float ratio_x, float ratio_y) {
+/* `weighed`: the planes go on with how near to a pixel is what it was made of. */
+static inline Current find_current(global const float* planes, uint pixels, bool weighed,
+                                   const Source* s, float ratio_x, float ratio_y, Mask still) {
     const Weights3 across = quadratic_weights(s->to_x), down = quadratic_weights(s->to_y);
     const Weights3 near_x = tent_weights(s->to_x, ratio_x);
     const Weights3 near_y = tent_weights(s->to_y, ratio_y);
@@ -35,20 +40,30 @@ static inline Current find_current(global const float* planes, uint pixels, cons
     Current c;
     c.sum = c.smooth = nothing;
     c.weight = zero;
+    c.trust = splat(1.0f);
     c.around = no_neighbours();
     for (uint k = 0u; k < 9u; ++k) {
         const int i = (int)(k % 3u), j = (int)(k / 3u);
         const Real3 sample =
             make3(source_at(planes, s, i - 1, j - 1), source_at(planes + pixels, s, i - 1, j - 1),
                   source_at(planes + 2u * pixels, s, i - 1, j - 1));
-        const Real weight = near_x.w[i] * near_y.w[j];
+        Worth worth = {near_x.w[i], near_y.w[j]};
+        Real trust = splat(1.0f);
+        if (weighed) {
+            global const float* nearness = planes + MACULA_PLANE_NEARNESS * pixels;
+            const Worth w = worth_of_nearness(source_at(nearness, s, i - 1, j - 1), still);
+            trust = w.scale * w.amount;
+            worth.scale = worth.scale * trust;
+        }
+        const Real weight = worth.scale * worth.amount;
         c.sum = scale_add3(sample, weight, c.sum);
-        c.weight = c.weight + weight;
+        c.weight = fma(worth.scale, worth.amount, c.weight);
         c.smooth = scale_add3(sample, across.w[i] * down.w[j], c.smooth);
         add_neighbour(&c.around, sample);
         if (k == 4u) {
             c.nearest = luma_of(sample).x;
             c.within = weight > zero;
+            c.trust = trust;
         }
     }
     c.smooth = make3(m_max(c.smooth.x, zero), m_max(c.smooth.y, zero), m_max(c.smooth.z, zero));
@@ -95,8 +110,8 @@ static inline Place find_place(global const float* followed, uint pixels, const 
     const Real motion_y = source_at(followed + pixels, source, 0, 0);
     const Real x = motion_x * splat(ratio_x), y = motion_y * splat(ratio_y);
     Place p;
-    p.x = strip_middles(s) + x;
-    p.y = ((float)s->y + 0.5f) + y;
+    p.x = fma(motion_x, splat(ratio_x), strip_middles(s));
+    p.y = fma(motion_y, splat(ratio_y), splat((float)s->y + 0.5f));
     p.wanted = strip_inside(s) & (motion_x < splat(MACULA_NO_MOTION)) & (p.x > splat(0.0f)) &
                (p.y > splat(0.0f)) & (p.x < splat((float)s->width)) &
                (p.y < splat((float)s->height));
@@ -104,9 +119,10 @@ static inline Place find_place(global const float* followed, uint pixels, const 
     return p;
 }
 
-/* From the gaze: the disk, and so far around it that what is in it finds neighbours. */
+/* From the gaze: the disk, and so far around it that the next frame's cubic finds the neighbours of
+ * what is in it: two pixels each way, at ratio 1. */
 static inline float disk_reach(global const Fovea* fovea) {
-    return fovea->radius + 2.0f;
+    return fovea->radius + 3.0f;
 }
 
 /* One work-item a strip of the picture. planes: of what is rendered. thin: as of find_thin().
@@ -150,8 +166,10 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     const Source source =
         source_of(&s, width, height, across, down, splat(frame->jitter[0]) * share,
                   splat(frame->jitter[1]) * share);
-    const Current now = find_current(planes, pixels, &source, ratio_x, ratio_y);
     Place place = find_place(followed, pixels, &s, &source, ratio_x, ratio_y);
+    const Mask still = place.speed < splat(0x1p-8f);
+    const Current now = find_current(planes, pixels, beyond == MACULA_BEYOND_GATHER, &source,
+                                     ratio_x, ratio_y, still);
     /* As large as the picture, and in the middle of its pixels: there is nothing to gather. */
     const bool complete = width == s.width && height == s.height && frame->jitter[0] == 0.0f &&
                           frame->jitter[1] == 0.0f;
@@ -163,7 +181,6 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
         const Footprint f = footprint_at(place.x, place.y, place.wanted, s.width, s.height);
         past = find_past(past_upscaled, all, &f, frame->jitter, place.wanted);
     }
-    const Mask still = place.speed < splat(0x1p-8f);
     const Real life = source_at(thin, &source, 0, 0);
     Mask seen = gathered & (life > zero) & now.within;
     Real beside = zero;
@@ -177,12 +194,13 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     const Real kept =
         m_min(past.worth,
               still ? splat(STILL_WORTH) : (holds ? splat(LOCKED_WORTH) : splat(MOVING_WORTH)));
-    const Real guess = m_divide(splat(GUESS) * m_max(one - now.weight, zero), one + kept);
+    const Real guess =
+        m_divide(splat(GUESS) * now.trust * m_max(one - now.weight, zero), one + kept);
     const Real weight = now.weight + guess;
     const Real3 sample = scale3(scale_add3(now.smooth, guess, now.sum), m_divide(one, weight));
     Real slack = splat(1e-6f);
     if (beyond != MACULA_BEYOND_NOTHING)
-        slack = m_max(slack, source_at(spreads, &source, 0, 0));
+        slack = m_max(slack, splat(SPREAD_REACH) * source_at(spreads, &source, 0, 0));
     Real3 history = rectified(&now.around, past.colour, reach, slack);
     history = select3(holds, past.colour, history);
     const Real worth = kept + weight;
@@ -193,7 +211,8 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
     store_plane(upscaled + all, &s, m_max(result.y, zero));
     store_plane(upscaled + 2u * all, &s, m_max(result.z, zero));
     const Lock next = next_lock(&past.lock, holds, seen, beside, now.nearest, life);
-    const Real packed = fma(next.life, splat(LIFE_UNIT), m_min(worth, splat(STILL_WORTH)));
+    const Real packed =
+        fma(next.life, splat(LIFE_UNIT), clamped(worth, splat(LEAST_WORTH), splat(STILL_WORTH)));
     store_plane(upscaled + MACULA_PLANE_WORTH * all, &s, packed);
     if (any_lane(next.life > zero)) {
         store_plane(upscaled + MACULA_PLANE_GROUND * all, &s, next.ground);
