@@ -269,4 +269,22 @@ TEST(Locks, AreTheSameWithOneLaneAndSixteen) {
     }
 }
 
+// Strips then hold places between pixels beside places in their middles.
+TEST(Locks, OfAMovingThingAreTheSameWithOneLaneAndSixteen) {
+    const scene::Scene scene = wires_over_ground({0.6f, true, -9.0f});
+    WeierSetup one = placed("full+upscale"), sixteen = one;
+    sixteen.lanes = 16;
+    WeierFrames narrow(device(), scene, one), wide(device(), scene, sixteen);
+    for (std::uint32_t frame = 0; frame < 12; ++frame) {
+        const float way = 0.3f * pixel_at(-9.0f) * float(frame);
+        for (WeierFrames* frames : {&narrow, &wide}) {
+            frames->place(std::vector{scene::Transform{}, moved_by({way, 0, 0})});
+            frames->run(frame, scene.cameras.front());
+        }
+        EXPECT_TRUE(
+            same_bits(narrow.read<Float4>(narrow.picture()), wide.read<Float4>(wide.picture())))
+            << "frame " << frame;
+    }
+}
+
 } // namespace

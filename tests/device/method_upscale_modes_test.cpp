@@ -314,20 +314,24 @@ TEST_P(EachMode, ACutForgetsTheHistoryByItself) {
 }
 
 TEST_P(EachMode, OneAndSixteenLanesGiveTheSameBits) {
-    std::vector<std::string> hashes;
-    for (const std::uint32_t lanes : {1u, 16u}) {
-        render::Options options;
-        options.width = 150;
-        options.height = 90;
-        options.method = GetParam();
-        options.lanes = lanes;
-        render::Renderer renderer(device(), cornell(), options);
-        for (std::uint32_t frame = 0; frame < 3; ++frame)
-            renderer.render(frame, moved(cornell(), {0.02f * float(frame), 0.01f, 0}));
-        hashes.push_back(renderer.hash());
-        EXPECT_EQ(renderer.map("colour").width, 150u);
+    // At ratio 1 the history's cubic reaches the farthest beyond the disk.
+    for (const float ratio : {1.8f, 1.0f}) {
+        std::vector<std::string> hashes;
+        for (const std::uint32_t lanes : {1u, 16u}) {
+            render::Options options;
+            options.width = 150;
+            options.height = 90;
+            options.method = GetParam();
+            options.temporal.ratio = ratio;
+            options.lanes = lanes;
+            render::Renderer renderer(device(), cornell(), options);
+            for (std::uint32_t frame = 0; frame < 3; ++frame)
+                renderer.render(frame, moved(cornell(), {0.02f * float(frame), 0.01f, 0}));
+            hashes.push_back(renderer.hash());
+            EXPECT_EQ(renderer.map("colour").width, 150u);
+        }
+        EXPECT_EQ(hashes[0], hashes[1]) << "ratio " << ratio;
     }
-    EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, EachMode,

@@ -33,6 +33,7 @@ struct WeierSetup {
     std::uint32_t samples_per_pixel = 1;
     frame::GeometryOptions geometry;
     std::uint32_t depth = 0; // of reflected and refracted rays
+    std::uint32_t lanes = 1; // of the shading kernels, 1 or 16
 };
 
 // A gaze through a point of the image in pixels of WeierSetup's 96 x 80.
@@ -58,7 +59,7 @@ class WeierFrames {
           totals_(device.upload(std::span(kNoRays), "ray counts")),
           graph_(method_.make({device, library_, geometry_, surfaces_, tracer_, size_.width,
                                size_.height, lights_, occlusion() ? setup.samples : 0, false,
-                               totals_, 1, setup.width, setup.height, setup.depth},
+                               totals_, setup.lanes, setup.width, setup.height, setup.depth},
                               {setup.lights, setup.weier, setup.lowres_scale, setup.log_polar,
                                setup.temporal, setup.rings, setup.rrm})) {
         std::set<std::string> outputs = setup.outputs;
