@@ -275,7 +275,7 @@ TEST(Renderer, UnknownNamesAreErrorsThatListTheKnownOnes) {
     o = options(LightMode::point);
     o.images = {"normal"};
     EXPECT_THAT([&] { render::Renderer(device(), cornell(), o); },
-                ThrowsMessage<frame::GraphError>(HasSubstr("shading normal")));
+                ThrowsMessage<std::invalid_argument>(HasSubstr("shading normal")));
     o = options(LightMode::point);
     o.variant = "fastest";
     EXPECT_THROW(render::Renderer(device(), cornell(), o), std::invalid_argument);
