@@ -168,8 +168,14 @@ kernel void upscale(global const FrameParams* restrict frame, uint target_width,
                   splat(frame->jitter[1]) * share);
     Place place = find_place(followed, pixels, &s, &source, ratio_x, ratio_y);
     const Mask still = place.speed < splat(0x1p-8f);
-    const Current now = find_current(planes, pixels, beyond == MACULA_BEYOND_GATHER, &source,
-                                     ratio_x, ratio_y, still);
+    Current now = find_current(planes, pixels, beyond == MACULA_BEYOND_GATHER, &source, ratio_x,
+                               ratio_y, still);
+    if (beyond == MACULA_BEYOND_GATHER) {
+        /* Without jitter some pixels of the picture never lie near a rendered one. */
+        const Real even = (one - share) * now.trust;
+        now.sum = scale_add3(now.sum, share, scale3(now.smooth, even));
+        now.weight = fma(now.weight, share, even);
+    }
     /* As large as the picture, and in the middle of its pixels: there is nothing to gather. */
     const bool complete = width == s.width && height == s.height && frame->jitter[0] == 0.0f &&
                           frame->jitter[1] == 0.0f;
