@@ -121,7 +121,7 @@ MACULA_ALWAYS_INLINE Between plane_between(global const float* plane, const Foot
             high = m_max(high, m_max(b, c));
         }
     }
-    const Between found = {m_min(m_max(value, low), high), sum * splat(0x1.c71c72p-4f)};
+    const Between found = {m_min(m_max(value, low), high), sum * splat(NINTH)};
     return found;
 }
 

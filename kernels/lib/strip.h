@@ -5,6 +5,8 @@
 
 #include "lib/lane_memory.h"
 
+#define NINTH 0x1.c71c72p-4f /* of a sum over three by three pixels */
+
 typedef struct Strip {
     int width, height; /* of the image */
     int x, y;          /* of the first lane */

@@ -11,7 +11,6 @@
 
 #define LEAST_BIAS 0.1f   /* of the retention bias, section 4.4 */
 #define MOST_WORTH 255.0f /* samples that a colour can be worth */
-#define NINTH 0x1.c71c72p-4f
 
 static inline Real3 finite_or(Real3 v, Real3 otherwise, Mask* is_finite) {
     *is_finite = (fabs(v.x) < splat(1e30f)) & (fabs(v.y) < splat(1e30f)) &

@@ -45,7 +45,7 @@ MACULA_ALWAYS_INLINE Real deviation_of(Real variance) {
 }
 
 MACULA_ALWAYS_INLINE void weigh_nine(Neighbours* n) {
-    const Real ninth = splat(0x1.c71c72p-4f);
+    const Real ninth = splat(NINTH);
     n->mean = scale3(n->mean, ninth);
     const Real3 v = fma3(neg3(n->mean), n->mean, scale3(n->deviation, ninth));
     n->deviation = make3(deviation_of(v.x), deviation_of(v.y), deviation_of(v.z));

@@ -173,38 +173,8 @@ TEST(BeyondTheDisk, NothingIsDarkerBesideALamp) {
     EXPECT_GT(least, 0.299f);
 }
 
-// A box whose front is red and whose right side is blue, before a black wall.
-scene::Scene two_sided_box() {
-    scene::Mesh wall, box;
-    add_quad(wall, {-40, -40, -20}, {80, 0, 0}, {0, 80, 0}, 0);
-    add_quad(box, {-1, -1, 0.3f}, {2, 0, 0}, {0, 2, 0}, 1);
-    add_quad(box, {1, -1, 0.3f}, {0, 0, -0.6f}, {0, 2, 0}, 2);
-    scene::Scene scene = scene_of(std::move(wall), {{1, 0, 6}, {1, 0, 0}, 20.0f});
-    scene.meshes.push_back(std::move(box));
-    scene.instances.push_back({1, {}, "box"});
-    scene.materials.resize(3);
-    for (scene::Material& material : scene.materials)
-        material.diffuse = material.emission = glm::vec3(0.0f);
-    scene.materials[1].emission = glm::vec3(1.0f, 0.0f, 0.0f);
-    scene.materials[2].emission = glm::vec3(0.0f, 0.0f, 1.0f);
-    return scene;
-}
-
-// All pixels around one show that colour alone.
-bool shows(const Picture& picture, int width, int height, int x, int y, int reach, bool red) {
-    if (x < reach || y < reach || x + reach >= width || y + reach >= height)
-        return false;
-    bool all = true;
-    for (int j = -reach; j <= reach; ++j)
-        for (int i = -reach; i <= reach; ++i) {
-            const Float4& c = picture[std::size_t((y + j) * width + x + i)];
-            all = all && c.x == (red ? 1.0f : 0.0f) && c.z == (red ? 0.0f : 1.0f);
-        }
-    return all;
-}
-
 TEST_P(EachMode, ASideThatTurnsUpTakesNoHistoryFromTheOneBesideIt) {
-    const scene::Scene scene = two_sided_box();
+    const scene::Scene scene = two_sided_box(-20.0f, 0.6f, {{1, 0, 6}, {1, 0, 0}, 20.0f});
     WeierSetup setup = whole_disk(GetParam());
     setup.width = 150;
     setup.height = 120;
@@ -216,10 +186,7 @@ TEST_P(EachMode, ASideThatTurnsUpTakesNoHistoryFromTheOneBesideIt) {
     int turned_up = 0, kept = 0, followed = 0;
     for (std::uint32_t frame = 0; frame < 6; ++frame) {
         const float angle = frame % 2 == 0 ? -0.15f : 0.2f;
-        scene::Transform there;
-        there.row[0] = {std::cos(angle), 0, std::sin(angle), 0};
-        there.row[2] = {-std::sin(angle), 0, std::cos(angle), 0};
-        frames.place(std::vector{scene::Transform{}, there});
+        frames.place(std::vector{scene::Transform{}, turned(angle)});
         frames.run(frame, scene.cameras.front());
         const Picture now = frames.read<Float4>("colour");
         const auto motion = frames.read<float>("followed motion");
@@ -228,11 +195,11 @@ TEST_P(EachMode, ASideThatTurnsUpTakesNoHistoryFromTheOneBesideIt) {
                 const auto i = std::size_t(y * 150 + x);
                 followed += std::abs(motion[i]) < 100.0f ? 1 : 0;
                 // It was behind the edge, where the front was in sight.
-                if (!shows(now, 150, 120, x, y, 2, false))
+                if (!shows(now, 150, 120, x, y, 2, false, 0.0f))
                     continue;
                 const int from = x + int(std::lround(motion[i]));
                 const bool is_kept = std::abs(motion[i]) < 100.0f;
-                kept += is_kept && shows(before, 150, 120, from, y, 1, true) ? 1 : 0;
+                kept += is_kept && shows(before, 150, 120, from, y, 1, true, 0.0f) ? 1 : 0;
                 turned_up += is_kept ? 0 : 1;
             }
         before = now;

@@ -12,41 +12,13 @@ using namespace macula::test::upscale;
 constexpr int kWidth = 200, kHeight = 160;
 constexpr int kReach = 10; // pixels: what two texels reach, as large as they are here
 
-// A box whose front is red and whose right side is blue, from so far away that all has one depth.
+// From so far away that all of the box has one depth.
 scene::Scene far_box() {
-    scene::Mesh wall, box;
-    add_quad(wall, {-40, -40, -6}, {80, 0, 0}, {0, 80, 0}, 0);
-    add_quad(box, {-1, -1, 0.3f}, {2, 0, 0}, {0, 2, 0}, 1);
-    add_quad(box, {1, -1, 0.3f}, {0, 0, -4}, {0, 2, 0}, 2);
-    scene::Scene scene = scene_of(std::move(wall), {{0.8f, 0, 80}, {0.8f, 0, 0}, 2.0f});
-    scene.meshes.push_back(std::move(box));
-    scene.instances.push_back({1, {}, "box"});
-    scene.materials.resize(3);
-    for (scene::Material& material : scene.materials)
-        material.diffuse = material.emission = glm::vec3(0.0f);
-    scene.materials[1].emission = glm::vec3(1.0f, 0.0f, 0.0f);
-    scene.materials[2].emission = glm::vec3(0.0f, 0.0f, 1.0f);
-    return scene;
+    return two_sided_box(-6.0f, 4.0f, {{0.8f, 0, 80}, {0.8f, 0, 0}, 2.0f});
 }
 
-scene::Transform turned(float angle) {
-    scene::Transform there;
-    there.row[0] = {std::cos(angle), 0, std::sin(angle), 0};
-    there.row[2] = {-std::sin(angle), 0, std::cos(angle), 0};
-    return there;
-}
-
-// The pixel and all within `reach` pixels show that colour alone.
 bool shows(const Picture& picture, int x, int y, int reach, bool red) {
-    if (x < reach || y < reach || x + reach >= kWidth || y + reach >= kHeight)
-        return false;
-    bool all = true;
-    for (int j = -reach; j <= reach; ++j)
-        for (int i = -reach; i <= reach; ++i) {
-            const Float4& c = picture[std::size_t((y + j) * kWidth + x + i)];
-            all = all && (red ? c.x : c.z) > 0.999f && (red ? c.z : c.x) < 0.001f;
-        }
-    return all;
+    return shows(picture, kWidth, kHeight, x, y, reach, red, 0.001f);
 }
 
 WeierSetup tiny_disk(const char* method) {

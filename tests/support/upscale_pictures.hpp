@@ -55,6 +55,46 @@ inline bool is_finite(const Float4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
+// A box whose front is red and whose right side, `deep`, is blue, before a black wall at `wall_z`.
+inline scene::Scene two_sided_box(float wall_z, float deep, const View& view) {
+    scene::Mesh wall, box;
+    add_quad(wall, {-40, -40, wall_z}, {80, 0, 0}, {0, 80, 0}, 0);
+    add_quad(box, {-1, -1, 0.3f}, {2, 0, 0}, {0, 2, 0}, 1);
+    add_quad(box, {1, -1, 0.3f}, {0, 0, -deep}, {0, 2, 0}, 2);
+    scene::Scene scene = scene_of(std::move(wall), view);
+    scene.meshes.push_back(std::move(box));
+    scene.instances.push_back({1, {}, "box"});
+    scene.materials.resize(3);
+    for (scene::Material& material : scene.materials)
+        material.diffuse = material.emission = glm::vec3(0.0f);
+    scene.materials[1].emission = glm::vec3(1.0f, 0.0f, 0.0f);
+    scene.materials[2].emission = glm::vec3(0.0f, 0.0f, 1.0f);
+    return scene;
+}
+
+// About the vertical axis, in radians.
+inline scene::Transform turned(float angle) {
+    scene::Transform there;
+    there.row[0] = {std::cos(angle), 0, std::sin(angle), 0};
+    there.row[2] = {-std::sin(angle), 0, std::cos(angle), 0};
+    return there;
+}
+
+// All pixels up to `reach` from one show that side of the box alone, to within `slack`.
+inline bool shows(const Picture& picture, int width, int height, int x, int y, int reach, bool red,
+                  float slack) {
+    if (x < reach || y < reach || x + reach >= width || y + reach >= height)
+        return false;
+    bool all = true;
+    for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+            const Float4& c = picture[std::size_t((y + j) * width + x + i)];
+            all = all && std::abs(c.x - (red ? 1.0f : 0.0f)) <= slack &&
+                  std::abs(c.z - (red ? 0.0f : 1.0f)) <= slack;
+        }
+    return all;
+}
+
 inline double mean_error(const Picture& a, const Picture& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
